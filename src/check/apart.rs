@@ -308,3 +308,38 @@ fn tell(
     }
     recorder.hand_over(true);
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use trunnion_interp::Position;
+
+    /// A cycle on a pattern of holes makes all of its motions in one block.
+    #[test]
+    fn a_block_of_many_motions_is_handed_over_in_parts() {
+        let (full, filled) = sync_channel(BATCHES);
+        let (empty, emptied) = sync_channel::<Batch>(BATCHES);
+        for _ in 0..BATCHES {
+            empty.send(Batch::default()).expect("room");
+        }
+        let mut recorder = EventRecorder {
+            batch: Batch::default(),
+            full: &full,
+            emptied: &emptied,
+            closed: false,
+            last: None,
+            foresight: None,
+        };
+        let (motion, state) = (
+            Motion::line(Position::default(), Position::default()),
+            ModalState::default(),
+        );
+        for _ in 0..BATCH * 3 + 1 {
+            recorder.motion(&motion, &state);
+        }
+        recorder.hand_over(true);
+        drop(full);
+        let parts: Vec<usize> = filled.iter().map(|batch| batch.motions.len()).collect();
+        assert_eq!(parts, [BATCH, BATCH, BATCH, 1]);
+    }
+}

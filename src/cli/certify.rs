@@ -59,11 +59,9 @@ pub(super) fn run(global: &Global, command: &Certify) -> Result<Done, Failure> {
         )
     } else {
         let claim = claimed(command);
-        // two languages: APT against G code; or a folder whose settings name another control
-        let other = second.as_ref().map(|other| &other.resolved).filter(|other| {
-            let by_settings = other.config_path != loaded.resolved.config_path && other.dialect_certain;
-            by_settings || other.dialect.lex.format != dialect.lex.format
-        });
+        // a program that is certainly for another control; what may be for any is read as the first
+        let other = second.as_ref().map(|other| &other.resolved);
+        let other = other.filter(|other| other.dialect_certain || other.dialect.lex.format != dialect.lex.format);
         let other = other.map_or(dialect, |other| other.dialect);
         let library = second
             .as_ref()

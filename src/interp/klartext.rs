@@ -42,6 +42,7 @@ use crate::frames::{Frames, Tilted};
 use crate::reported::Reported;
 use crate::{Fault, FaultKind, LengthOf, Motion, Position, Sink};
 use flow::{Flow, Request};
+use std::sync::Arc;
 use trunnion_geometry::Vec3;
 use trunnion_syntax::{BlockId, Program, TextRange};
 use values::Parameters;
@@ -96,8 +97,8 @@ pub(crate) struct Memory {
     cycle: hole::Cycle,
     /// mm per unit of the program that defines it.
     cycle_unit: f64,
-    /// The points of PATTERN DEF.
-    pattern: Option<Vec<Position>>,
+    /// The points of PATTERN DEF; copies of the state share them.
+    pattern: Option<Arc<[Position]>>,
     /// M89.
     runs_after_each: bool,
     /// M136.

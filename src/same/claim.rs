@@ -13,7 +13,7 @@ pub struct Claim {
     pub frees_feed: bool,
     /// Everything but the geometry may differ: the claim is the path alone.
     pub path_only: bool,
-    /// The programs are in two languages (APT and G code): what one of them cannot express is ignored. Set by [`crate::compare`].
+    /// The programs are for controls that name what is in effect in other words. Set by [`crate::compare`].
     pub across: bool,
     /// Rapids of both controls move in straight lines. Set by [`crate::compare`].
     pub straight_rapids: bool,

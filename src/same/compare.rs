@@ -3,6 +3,7 @@
 //! What counts is interface section 8.3: geometry, feed, spindle, tool and offsets, coolant, clamps, dwell, stops, path control, outputs,
 //! stored data, and the words of everything that is not modelled.
 use crate::Claim;
+use crate::across::{Counterparts, is_in_motions};
 use crate::begin::{begin_alike, may_be_part, way_is_open};
 use crate::curve::{self, Curve};
 use crate::cut::{blocks_count, cut, is_idle, may_be_cut};
@@ -41,7 +42,7 @@ pub fn compare(before: &mut Steps<'_>, after: &mut Steps<'_>, claim: &Claim, jud
     let no_rotary = |steps: &Steps<'_>| steps.input().machine.is_none_or(|machine| machine.rotary.is_empty());
     let straight = |steps: &Steps<'_>| steps.input().dialect.quirks.straight_rapids;
     let claim = &Claim {
-        across: claim.across || format(before) != format(after),
+        across: claim.across || format(before) != format(after) || user_names(before) != user_names(after),
         plane_counts: user_names(before) || user_names(after),
         no_rotary: no_rotary(before) && no_rotary(after),
         straight_rapids: straight(before) && straight(after),
@@ -63,6 +64,7 @@ fn walk(
     let mut a = next(before, claim);
     let mut b = next(after, claim);
     let mut open = Open::default();
+    let mut counterparts = Counterparts::default();
     // motions of the program before that were followed beyond the end of a new one
     let mut again = VecDeque::new();
     // a program that is missing may return to here: the next motion is the same as a whole, wherever it begins
@@ -101,7 +103,11 @@ fn walk(
             continue;
         }
         let otherwise = claim.refit.is_none() && curve::said_otherwise(was, is, [before, after]);
-        let found = pair(was, is, judged, judge, &mut open);
+        let names = match (&*was, &*is) {
+            (Item::Motion(was), Item::Motion(is)) if claim.across => counterparts.agree(was, is),
+            _ => Ok(()),
+        };
+        let found = names.and_then(|()| pair(was, is, judged, judge, &mut open));
         let moved_on = match curve::as_said(found, was, is, otherwise) {
             Ok(Paired::Both) => (true, true),
             Ok(Paired::FirstInPart) => (true, false),
@@ -305,6 +311,7 @@ fn refitted(
 pub(crate) fn next(steps: &mut Steps<'_>, claim: &Claim) -> Option<Item> {
     steps.find(|item| match item {
         Item::Motion(step) => !(claim.cuts && is_idle(step)),
+        Item::Happens { words, .. } if claim.across && is_in_motions(words) => false,
         Item::Happens { sort, .. } => !claim.path_only || *sort == Sort::Unmodelled,
     })
 }

@@ -1,8 +1,9 @@
 //! What must be in effect in both programs at two motions.
 use crate::Claim;
+use crate::across::{length_counts, unlike_across};
 use crate::cut::feed_is_a_pitch;
 use crate::item::Step;
-use crate::motions::motion_difference;
+use crate::motions::{Which, motion_difference};
 use crate::process::{unlike, unlike_in_motions};
 use crate::verdict::{Difference, Verdict};
 use trunnion_interp::{Feed, MotionKind, Orientation, same_number};
@@ -35,12 +36,25 @@ pub(crate) fn in_effect(was: &Step, is: &Step, claim: &Claim) -> Result<(), Verd
     if let Some((name, from, to)) = held {
         return differs(format!("{name} differs: {from} and {to}"));
     }
-    let moving = motion_difference(a, b, feed_counts);
+    // where the machine's positions are known, they are compared, whatever was asked for
+    let posed = |step: &Step| {
+        step.leg
+            .as_ref()
+            .is_some_and(|leg| leg.end.is_ok() && leg.open.is_none())
+    };
+    let which = Which {
+        feed: feed_counts,
+        tool_length: !claim.across || length_counts(a, b),
+        posture: !(claim.across && posed(was) && posed(is)),
+    };
+    let moving = motion_difference(a, b, which);
     let is_certain = moving.as_ref().is_some_and(|found| !found.is_unknown);
     let modal = if is_certain {
         None
+    } else if claim.across {
+        unlike_across(was, is)
     } else {
-        unlike(&was.process, &is.process, claim.across)
+        unlike(&was.process, &is.process, false)
     };
     let modal = modal.or_else(|| {
         let open = is_open(was) || is_open(is);

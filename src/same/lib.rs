@@ -5,6 +5,7 @@
 //! means; whoever compares programs (proofs, `diff`, layout) asks it.
 //!
 //! It does not know rules, rewrites or text for people beyond the one sentence of a [`Difference`].
+mod across;
 mod actions;
 mod begin;
 mod change;

@@ -123,10 +123,32 @@ fn same_feed(a: Feed, b: Feed) -> bool {
     }
 }
 
+/// Which parts count that do not always do.
+#[derive(Clone, Copy)]
+pub(crate) struct Which {
+    pub(crate) feed: bool,
+    pub(crate) tool_length: bool,
+    pub(crate) posture: bool,
+}
+
+impl Which {
+    /// All.
+    pub(crate) const ALL: Self = Self {
+        feed: true,
+        tool_length: true,
+        posture: true,
+    };
+}
+
 /// The part of the process in the motions themselves that differs and must be the same: the first that is known in both, else the first
 /// that one of them does not show.
-pub(crate) fn motion_difference(a: &Motion, b: &Motion, feed_counts: bool) -> Option<Unlike> {
-    let counts = |part: &Part| feed_counts || !matches!(part, Part::Feed);
+pub(crate) fn motion_difference(a: &Motion, b: &Motion, which: Which) -> Option<Unlike> {
+    let counts = |part: &Part| match part {
+        Part::Feed => which.feed,
+        Part::ToolLength => which.tool_length,
+        Part::Posture => which.posture,
+        _ => true,
+    };
     let mut found = Part::ALL.into_iter().filter(counts).filter(|part| part.differs(a, b));
     let first = found.next()?;
     let open = |part: Part| part.is_unknown(a) || part.is_unknown(b);

@@ -5,7 +5,7 @@ use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 use trunnion_dialect::{Dialect, Plane};
-use trunnion_interp::{Argument, LengthOf, ModalState, is_left};
+use trunnion_interp::{Argument, Beside, LengthOf, ModalState, is_left};
 
 /// Settings by their key; a key that is absent was never set, or has its initial value again.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -156,7 +156,7 @@ impl Process {
     }
 
     /// The settings that APT and G code share.
-    const SHARED: [&'static str; 5] = ["spindle", "speed", "flood coolant", "mist coolant", "tool in use"];
+    pub(crate) const SHARED: [&'static str; 5] = ["spindle", "speed", "flood coolant", "mist coolant", "tool in use"];
 
     /// The settings that differ among those that programs of two languages share: key, before, after.
     pub fn shared_differences<'p>(&'p self, other: &'p Self) -> Vec<(&'p str, String, String)> {
@@ -265,6 +265,8 @@ pub struct Held {
     pub work_offset: Option<Arc<str>>,
     /// Side of the cutter radius compensation: 0 off, 41, 42.
     pub compensation: u8,
+    /// The motions are the path of the tool, not the programmed path beside which it runs.
+    pub(crate) beside_is_computed: bool,
     /// Which tool's length is active.
     pub length_of: LengthOf,
     /// Whether it acts after a motion in machine coordinates is not known.
@@ -294,6 +296,7 @@ impl Held {
         Self {
             work_offset: state.zero.offset().map(offset_name),
             compensation: state.compensation,
+            beside_is_computed: state.beside == Beside::Computed,
             length_of: state.length.of(),
             length_is_open: state.length.is_open(),
             plane: state.coordinates.plane(),

@@ -1,7 +1,7 @@
 //! Rapid motions one after the other: where only their ends matter, two programs may make different ones between them.
 use crate::Claim;
 use crate::item::{Item, Step};
-use crate::motions::motion_difference;
+use crate::motions::{Which, motion_difference};
 use crate::process::unlike;
 use crate::steps::Steps;
 use trunnion_interp::{MotionKind, Swivel};
@@ -33,7 +33,7 @@ fn continues(first: &Step, step: &Step) -> bool {
     is_rapid(step)
         && first.held == step.held
         && unlike(&first.process, &step.process, false).is_none()
-        && motion_difference(a, b, true).is_none()
+        && motion_difference(a, b, Which::ALL).is_none()
         && zeros
         && a.undeclared == b.undeclared
         && a.tilt.normal == b.tilt.normal

@@ -237,6 +237,26 @@ mod tests {
         assert_eq!(found(50.0), [Status::Fail]);
     }
 
+    /// Near an obstacle a motion is cut into pieces; they are counted over the whole run.
+    #[test]
+    fn a_run_looks_at_so_many_pieces_and_says_where_it_stops() {
+        let mut machine = crate::fixture::machine("mikron-ucp710+wall").unwrap();
+        let text = "(trunnion: tool 1 flat diameter 8 length 80)\nT1 M6\nG43 H1 G0 X-60 Y0 Z20 A0 C0\nG1 A10 C30 F500\nA20 C60\nA10 C30\nM30\n";
+        let mut stops = |most: u64| {
+            machine.most_turned = most;
+            let report = check_on(&machine, "linuxcnc", text);
+            let spent = report
+                .diagnostics
+                .iter()
+                .find(|d| d.message.contains("pieces of motions"));
+            spent.map(|d| (d.status, d.message.clone()))
+        };
+        assert_eq!(stops(150_000), None);
+        let (status, message) = stops(0).expect("no piece is allowed");
+        assert_eq!(status, Status::Unknown);
+        assert!(message.starts_with("more than 0 pieces"), "{message}");
+    }
+
     /// The program of the thesis cuts its wall at rapid: N257 to N323 run in the material, N256 enters and N324 leaves it.
     #[test]
     fn the_wall_of_the_thesis_is_cut_at_rapid() {

@@ -14,6 +14,9 @@ const HELD: [&str; 22] = [
 /// M codes that are in the motions, or in effects of their own.
 const CODES: [u32; 20] = [0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 13, 14, 30, 89, 91, 92, 99, 126, 127, 128];
 
+/// The setting of M128 F.
+const COMPENSATING_FEED: &str = "feed of compensating motions";
+
 impl Klartext<'_> {
     #[cold]
     pub(crate) fn block_effects(&mut self, text: &[u8], block: BlockId, other: bool, skips: bool) {
@@ -48,9 +51,16 @@ impl Klartext<'_> {
             unmodelled = true;
         }
         words.at = 0;
-        for word in words.filter(|word| word.is("M")) {
-            if let Some(code) = self.memory.parameters.of(word.value) {
-                self.code_effects(code as u32, block, &mut after, &mut unmodelled);
+        while let Some(word) = words.next() {
+            let code = word.is("M").then(|| self.memory.parameters.of(word.value)).flatten();
+            let Some(code) = code.map(|code| code as u32) else {
+                continue;
+            };
+            self.code_effects(code, block, &mut after, &mut unmodelled);
+            match code {
+                128 => unmodelled |= !self.compensating_feed(words.clone(), block),
+                129 => self.core.effects.add(block, Effect::set(COMPENSATING_FEED, [])),
+                _ => {}
             }
         }
         // what begins with the block acts before its motions
@@ -80,6 +90,20 @@ impl Klartext<'_> {
             let end = Effect::End(vec![Argument::code("M30")]);
             self.core.effects.add(block, end);
         }
+    }
+
+    /// M128 F: how fast the linear axes may move to keep the tip in its place (TNC 640 user's manual, M128). Whether its F is known.
+    fn compensating_feed(&mut self, mut words: Words<'_>, block: BlockId) -> bool {
+        let Some(feed) = words.next().filter(|word| word.is("F")) else {
+            return true;
+        };
+        let unit = self.core.state.coordinates.unit_mm();
+        let Some(feed) = self.memory.parameters.of(feed.value) else {
+            return false;
+        };
+        let to = [Argument::number("mm/min", feed * unit)];
+        self.core.effects.add(block, Effect::set(COMPENSATING_FEED, to));
+        true
     }
 
     fn code_effects(&mut self, code: u32, block: BlockId, after: &mut Vec<Effect>, unmodelled: &mut bool) {

@@ -71,7 +71,7 @@ impl Klartext<'_> {
     pub(crate) fn pattern(&mut self, words: &mut Words<'_>, report: &mut Report<'_>) {
         // its points count where they are called
         self.memory.unfollowed = true;
-        self.memory.pattern = self.points_of(words, report);
+        self.memory.pattern = self.points_of(words, report).map(Into::into);
         if self.memory.pattern.is_none() {
             Self::not_modelled(
                 "PATTERN DEF: other forms than POS with the two coordinates of the plane",
@@ -138,7 +138,7 @@ impl Klartext<'_> {
         } else if let Some(points) = points {
             self.not_modelled_once("CYCL CALL PAT: the path between its points", report);
             let axes = self.axes();
-            for point in points {
+            for point in points.iter() {
                 if self.is_full(report) {
                     break;
                 }

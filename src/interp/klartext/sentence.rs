@@ -270,8 +270,9 @@ impl Klartext<'_> {
                 126 => self.memory.shortest = true,
                 127 => self.memory.shortest = false,
                 128 => {
-                    // the highest feed of the compensating motions
-                    self.memory.unfollowed |= words.own_feed != FeedSaid::Nothing;
+                    // the highest feed of the compensating motions is a setting of its own
+                    let is_number = matches!(words.own_feed, FeedSaid::Nothing | FeedSaid::Value(_));
+                    self.memory.unfollowed |= !is_number;
                     self.guide_tip(true, report);
                 }
                 129 => self.guide_tip(false, report),

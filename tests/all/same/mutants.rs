@@ -69,6 +69,7 @@ impl Base {
             name: format!("{}: {what}", self.name),
             expected,
             dialect: self.dialect.name.clone(),
+            dialect_after: None,
             machine: self.machine.clone(),
             claim: None,
             before: Self::text(&self.lines),

@@ -50,6 +50,8 @@ pub(crate) struct Pair {
     pub(crate) name: String,
     pub(crate) expected: Expected,
     pub(crate) dialect: String,
+    /// Of the program after, where it is for another control.
+    pub(crate) dialect_after: Option<String>,
     pub(crate) machine: String,
     /// The claim that `certify` is asked for; all fields when absent.
     pub(crate) claim: Option<String>,
@@ -63,9 +65,11 @@ pub(crate) struct Pair {
 #[derive(Clone, Default)]
 struct Setting {
     dialect: String,
+    dialect_after: Option<String>,
     machine: String,
     claim: Option<String>,
     frame: String,
+    frame_after: Option<String>,
 }
 
 impl Setting {
@@ -77,6 +81,8 @@ impl Setting {
             "machine" => self.machine = value,
             "claim" => self.claim = Some(value),
             "frame" => self.frame = value,
+            "dialect-after" => self.dialect_after = Some(value),
+            "frame-after" => self.frame_after = Some(value),
             other => panic!("{place}: `{other}` is no setting"),
         }
     }
@@ -121,17 +127,18 @@ pub(crate) fn read(file: &Path) -> Vec<Pair> {
         let (kind, theme) = title
             .split_once(": ")
             .unwrap_or_else(|| panic!("{place}: a title is `word: name`"));
-        let frame = frames
-            .get(&own.frame)
-            .unwrap_or_else(|| panic!("{place}: no frame `{}`", own.frame));
+        let named = |name: &str| frames.get(name).unwrap_or_else(|| panic!("{place}: no frame `{name}`"));
+        let frame = named(&own.frame);
+        let frame_after = own.frame_after.as_deref().map_or(frame, named);
         let make = |name: String, expected: Expected, before: &str, after: &str, files: &[(String, String)]| Pair {
             name,
             expected,
             dialect: own.dialect.clone(),
+            dialect_after: own.dialect_after.clone(),
             machine: own.machine.clone(),
             claim: own.claim.clone(),
             before: frame.replacen("@@\n", before, 1),
-            after: frame.replacen("@@\n", after, 1),
+            after: frame_after.replacen("@@\n", after, 1),
             files: files.to_vec(),
         };
         if kind == "pairs" {

@@ -62,13 +62,23 @@ pub(crate) fn ask_all(pairs: &[Pair]) -> Vec<Answer> {
     answers.into_iter().map(|(_, answer)| answer).collect()
 }
 
-/// The file extension that fits the dialect; the dialect itself is named on the command line.
+/// The file extension that fits the dialect; the dialect itself is named on the command line, or in a comment.
 fn extension(dialect: &str) -> &'static str {
     match dialect {
         "sinumerik-840d" => "mpf",
+        "heidenhain-klartext" => "h",
+        "okuma-osp" => "min",
         "linuxcnc" => "ngc",
         "apt" => "apt",
         _ => "nc",
+    }
+}
+
+/// A program that says for which control it is.
+fn with_its_dialect(dialect: &str, text: &str) -> String {
+    match extension(dialect) {
+        "nc" | "ngc" => format!("(trunnion: dialect {dialect})\n{text}"),
+        _ => text.to_owned(),
     }
 }
 
@@ -79,16 +89,24 @@ fn ask(pair: &Pair) -> Answer {
         fs::write(&path, text).expect("writable");
         path
     };
-    let extension = extension(&pair.dialect);
-    let before = place(format!("before.{extension}"), &pair.before);
-    let after = place(format!("after.{extension}"), &pair.after);
+    let dialects = [&pair.dialect, pair.dialect_after.as_ref().unwrap_or(&pair.dialect)];
+    let name = |which: &str, dialect: &str| format!("{which}.{}", extension(dialect));
+    let texts = [&pair.before, &pair.after];
+    let texts: [String; 2] = core::array::from_fn(|at| match pair.dialect_after {
+        Some(_) => with_its_dialect(dialects[at], texts[at]),
+        None => texts[at].clone(),
+    });
+    let before = place(name("before", dialects[0]), &texts[0]);
+    let after = place(name("after", dialects[1]), &texts[1]);
     for (name, text) in &pair.files {
         place(name.clone(), text);
     }
     let run = |command: &str, words: &[&str]| -> Said {
         let mut job = Command::new(binary());
-        job.arg(command)
-            .args(["--dialect", &pair.dialect, "--machine", &pair.machine]);
+        job.arg(command).args(["--machine", &pair.machine]);
+        if pair.dialect_after.is_none() {
+            job.args(["--dialect", &pair.dialect]);
+        }
         if let (Some(claim), "certify") = (&pair.claim, command) {
             job.args(["--claim", claim]);
         }

@@ -28,6 +28,7 @@ pub(crate) fn numbers_changed(name: &str, text: &str, dialect: &str, machine: &s
                 name: format!("{name}: line {}: `{line}` to `{other}`", at + 1),
                 expected: Expected::Different,
                 dialect: dialect.to_owned(),
+                dialect_after: None,
                 machine: machine.to_owned(),
                 claim: None,
                 before: text.to_owned(),

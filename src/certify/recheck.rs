@@ -189,12 +189,16 @@ fn prove(question: Question<'_>) -> Result<Certificate, Outcome> {
 /// The proof for one state of the switch for block delete. Two programs are the same only with any values of what nobody declares.
 fn prove_for_all(question: Question<'_>) -> Result<Certificate, Outcome> {
     let Question {
-        texts, setup, claim, ..
+        texts,
+        dialects,
+        setup,
+        claim,
+        ..
     } = question;
     let (proved, unset) = prove_run(question)?;
     if texts[0] != texts[1]
         && let Some(claim) = &claim_for_all(claim)
-        && let Some(unrelated) = unrelated(setup, &unset)
+        && let Some(unrelated) = unrelated(setup, dialects, &unset)
     {
         // only that they differ counts: with stand-ins a pose may be out of reach
         let again = prove_run(Question {

@@ -152,7 +152,8 @@ fn by_chance(pair: &Pair<'_>, claim: &Claim, unset: &[FaultKind]) -> Option<Diff
     if pair.before.program.source() == pair.after.program.source() {
         return None;
     }
-    let setups = [pair.before, pair.after].map(|input| unrelated(input.setup, unset));
+    let dialects = [pair.before.dialect, pair.after.dialect];
+    let setups = [pair.before, pair.after].map(|input| unrelated(input.setup, dialects, unset));
     let [Some(before), Some(after)] = &setups else {
         return None;
     };

@@ -2,15 +2,15 @@
 //!
 //! Zero points and tool lengths that are declared are in the motions. One that is not must have gone with the same one of the other program
 //! wherever it counts. The kind of a cycle is compared as far as both controls say it in a way that is known; other settings have no common words.
-use crate::item::Step;
+use crate::item::{Item, Sort, Step};
 use crate::process::{Process, Unlike, shown};
 use crate::verdict::{Difference, Verdict};
 use std::sync::Arc;
-use trunnion_dialect::Plane;
+use trunnion_dialect::{Dialect, Plane};
 use trunnion_interp::{Argument, Feed, LengthOf, Motion, Value, same_number};
 
 /// Settings that the motions, [`Counterparts`] or [`unlike_cycles`] compare, or that only prepare what comes later: each control has its own words.
-const NAMED_OTHERWISE: [&str; 16] = [
+const NAMED_OTHERWISE: [&str; 15] = [
     "compensation",
     "coordinates",
     "cycle",
@@ -22,7 +22,6 @@ const NAMED_OTHERWISE: [&str; 16] = [
     "radius offset",
     "reference point",
     "side of the compensation",
-    "speed mode",
     "spindle words",
     "tool prepared",
     "tool words",
@@ -34,11 +33,11 @@ const TAPS: [&str; 10] = [
     "tap", "CYCLE84", "CYCLE840", "G33.1", "G63", "G74", "G84", "G84.2", "G84.3", "G331",
 ];
 
-/// Those that cut a left-hand thread.
-const LEFT: [&str; 2] = ["G74", "G84.3"];
-
 /// Axis Z, in a mask as in [`trunnion_interp::Position::known`].
 const Z: u16 = 1 << 2;
+
+/// The linear axes of the workpiece.
+const XYZ: u16 = 7;
 
 /// Zero points and tool lengths of two programs that have gone together so far.
 #[derive(Default)]
@@ -75,10 +74,13 @@ impl Counterparts {
                 what,
             }))
         };
-        if a.machine_coordinates || b.machine_coordinates {
-            return Ok(());
+        let open = [a, b].map(|motion| motion.undeclared.zero & XYZ != 0);
+        if open[0] != open[1] {
+            return unknown("only one of them depends on a zero point that is not declared: declare it".to_owned());
         }
-        if (a.undeclared.zero | b.undeclared.zero) != 0
+        let machine = a.machine_coordinates || b.machine_coordinates;
+        if !machine
+            && (a.undeclared.zero | b.undeclared.zero) != 0
             && let Some(earlier) = join(&mut self.zeros, [&was.held.work_offset, &is.held.work_offset])
         {
             let name = |zero: &Option<Arc<str>>| zero.as_deref().unwrap_or("no work offset").to_owned();
@@ -90,7 +92,7 @@ impl Counterparts {
                 name(&earlier[1])
             ));
         }
-        if length_counts(a, b) && (a.undeclared.length || b.undeclared.length) {
+        if !machine && length_counts(a, b) && (a.undeclared.length || b.undeclared.length) {
             let lengths = [&was.held.length_of, &is.held.length_of];
             let one_has_none = lengths.contains(&&LengthOf::Nothing) && lengths[0] != lengths[1];
             let what = format!("the tool lengths in effect are {} and {}", lengths[0], lengths[1]);
@@ -119,8 +121,7 @@ impl Counterparts {
                 }
             };
             return unknown(format!(
-                "the cutter radius compensation is {} and {}, and how far the tool runs beside the path is not computed in both: declare the tool's \
-                 diameter",
+                "the cutter radius compensation is {} and {}, and how far the tool runs beside the path is not computed in both",
                 name(sides[0]),
                 name(sides[1])
             ));
@@ -164,14 +165,13 @@ fn coupling(process: &Process) -> Coupling<'_> {
 /// How far a tap moves in a turn of the spindle, mm; negative: a left-hand thread. `None`: not known.
 fn pitch(step: &Step) -> Option<f64> {
     let words = step.process.get("cycle");
-    let number = |name: &str| {
-        let word = words.iter().find(|word| word.name == name)?;
-        match word.value {
+    let written = words
+        .iter()
+        .find(|word| word.name == "pitch")
+        .and_then(|word| match word.value {
             Value::Number(value) => Some(value),
             _ => None,
-        }
-    };
-    let written = number("pitch");
+        });
     let by_feed = match step.motion.feed {
         Feed::PerRevolution(pitch) => Some(pitch),
         Feed::PerMinute(feed) => step
@@ -182,10 +182,26 @@ fn pitch(step: &Step) -> Option<f64> {
         _ => None,
     };
     let size = written.or(by_feed)?;
-    let turns_left = matches!(step.process.get("spindle"), [only] if only.name == "M4");
-    let first = words.first()?.name.as_ref();
-    let left = LEFT.contains(&first) || written.is_none() && first == "tap" && turns_left;
-    Some(if left { -size.abs() } else { size })
+    let first = words.first()?;
+    let left = match first.name.as_ref() {
+        "G74" | "G84.3" => true,
+        "G84" | "G84.2" => false,
+        "tap" if written.is_some() => size < 0.0,
+        "CYCLE84" => rigid_pitch(&first.to_string())? < 0.0,
+        // the spindle turns as it does before
+        _ => match step.process.get("spindle") {
+            [only] if only.name == "M4" => true,
+            [only] if only.name == "M3" => false,
+            _ => return None,
+        },
+    };
+    Some(if left { -size.abs() } else { size.abs() })
+}
+
+/// PIT of `CYCLE84=(RTP,RFP,SDIS,DP,DPR,DTB,SDAC,MPIT,PIT,...)`; its sign is the hand of the thread (Sinumerik 840D sl cycles manual, CYCLE84).
+fn rigid_pitch(said: &str) -> Option<f64> {
+    let arguments = said.split_once('(')?.1.split_once(')')?.0;
+    arguments.split(',').nth(8)?.trim().parse().ok()
 }
 
 /// How the cycles of two motions differ, in the kind of what the spindle does with the feed.
@@ -204,6 +220,8 @@ fn unlike_cycles(was: &Step, is: &Step) -> Option<Unlike> {
     };
     match (coupling(&was.process), coupling(&is.process)) {
         (Coupling::Nothing, Coupling::Nothing) => None,
+        // the way to the hole has no pitch
+        (Coupling::Tap, Coupling::Tap) if !was.motion.is_feed() && !is.motion.is_feed() => None,
         (Coupling::Tap, Coupling::Tap) => {
             let pitches = [pitch(was), pitch(is)];
             if let [Some(a), Some(b)] = pitches
@@ -247,10 +265,37 @@ pub(crate) fn unlike_across(was: &Step, is: &Step) -> Option<Unlike> {
     shared.or(cycle).or_else(own)
 }
 
-/// Words whose whole effect is in the motions and in what is in effect with them: a tilted plane, tool centre point control.
+/// Whether two programs are for controls that name what is in effect in other words, or read the same words otherwise. The general dialect of ISO 6983
+/// is no control of its own.
+pub(crate) fn are_two_controls(dialects: [&Dialect; 2]) -> bool {
+    let [a, b] = dialects;
+    let forms = a.lex.format != b.lex.format || a.quirks.user_names() != b.quirks.user_names();
+    forms || a.name != b.name && [a, b].iter().all(|dialect| dialect.name != "iso-6983")
+}
+
+/// Whether words that are not modelled do the same on every control: ISO 6983-1, M00, M01, M06.
+pub(crate) fn means_the_same(words: &[Argument]) -> bool {
+    const WORDS: [&str; 4] = ["tool change", "M0", "M1", "M6"];
+    matches!(words, [only] if WORDS.contains(&only.name.as_ref()))
+}
+
+/// The verdict on two items of two controls: where one does something in words of its own, it is not known that the other does not do it too.
+pub(crate) fn unless_own_words(verdict: Verdict, was: &Item, is: &Item) -> Verdict {
+    let own =
+        |item: &Item| matches!(item, Item::Happens { sort, words, .. } if *sort != Sort::End && !means_the_same(words));
+    match verdict {
+        Verdict::Differs(mut found) if own(was) || own(is) => {
+            found.what += ", and whether the other control does the same in other words is not known";
+            Verdict::Unknown(found)
+        }
+        verdict => verdict,
+    }
+}
+
+/// Words whose whole effect is in the motions and in what is in effect with them: a tilted plane, tool centre point control, the spindle.
 pub(crate) fn is_in_motions(words: &[Argument]) -> bool {
-    const WORDS: [&str; 10] = [
-        "CYCLE800", "G68.2", "G68.3", "G68.4", "G268", "G269", "G53.1", "G53.6", "G69", "TRAORI",
+    const WORDS: [&str; 13] = [
+        "CYCLE800", "G68.2", "G68.3", "G68.4", "G268", "G269", "G53.1", "G53.6", "G69", "TRAORI", "M3", "M4", "M5",
     ];
     words.first().is_some_and(|first| {
         let said = first.to_string();

@@ -3,12 +3,12 @@
 //! What counts is interface section 8.3: geometry, feed, spindle, tool and offsets, coolant, clamps, dwell, stops, path control, outputs,
 //! stored data, and the words of everything that is not modelled.
 use crate::Claim;
-use crate::across::{Counterparts, is_in_motions};
+use crate::across::{Counterparts, are_two_controls, is_in_motions, unless_own_words};
 use crate::begin::{begin_alike, may_be_part, way_is_open};
 use crate::curve::{self, Curve};
 use crate::cut::{blocks_count, cut, is_idle, may_be_cut};
 use crate::elsewhere::same_elsewhere;
-use crate::ending::{at_end, stopped};
+use crate::ending::{at_end, nothing_outlives, stopped};
 use crate::exact;
 use crate::happens::happens;
 use crate::in_effect::{in_effect, unless_undeclared};
@@ -37,12 +37,11 @@ pub fn compare(before: &mut Steps<'_>, after: &mut Steps<'_>, claim: &Claim, jud
         return exact::walk(before, after, exact).err().unwrap_or(Verdict::Same);
     }
     let twins = Twins::of(before.input(), after.input());
-    let format = |steps: &Steps<'_>| steps.input().dialect.lex.format;
     let user_names = |steps: &Steps<'_>| steps.input().dialect.quirks.user_names();
     let no_rotary = |steps: &Steps<'_>| steps.input().machine.is_none_or(|machine| machine.rotary.is_empty());
     let straight = |steps: &Steps<'_>| steps.input().dialect.quirks.straight_rapids;
     let claim = &Claim {
-        across: claim.across || format(before) != format(after) || user_names(before) != user_names(after),
+        across: claim.across || are_two_controls([before.input().dialect, after.input().dialect]),
         plane_counts: user_names(before) || user_names(after),
         no_rotary: no_rotary(before) && no_rotary(after),
         straight_rapids: straight(before) && straight(after),
@@ -108,6 +107,13 @@ fn walk(
             _ => Ok(()),
         };
         let found = names.and_then(|()| pair(was, is, judged, judge, &mut open));
+        let found = found.map_err(|verdict| {
+            if claim.across {
+                unless_own_words(verdict, was, is)
+            } else {
+                verdict
+            }
+        });
         let moved_on = match curve::as_said(found, was, is, otherwise) {
             Ok(Paired::Both) => (true, true),
             Ok(Paired::FirstInPart) => (true, false),
@@ -133,16 +139,22 @@ fn walk(
         }
     }
     if a.is_some() || b.is_some() {
-        return Err(only_one(a.as_ref(), b.as_ref()));
+        let verdict = only_one(a.as_ref(), b.as_ref());
+        let own = a.as_ref().or(b.as_ref()).filter(|_| claim.across);
+        return Err(own.map_or(verdict.clone(), |own| unless_own_words(verdict, own, own)));
     }
     if twins.stopped(before, after)? {
         return Ok(());
     }
     stopped(before, after)?;
     same_elsewhere(before, after)?;
-    if !claim.path_only && !claim.across {
-        at_end(before, after)?;
+    if claim.path_only {
+        return Ok(());
     }
+    if claim.across {
+        return nothing_outlives(before, after);
+    }
+    at_end(before, after)?;
     Ok(())
 }
 
@@ -311,7 +323,7 @@ fn refitted(
 pub(crate) fn next(steps: &mut Steps<'_>, claim: &Claim) -> Option<Item> {
     steps.find(|item| match item {
         Item::Motion(step) => !(claim.cuts && is_idle(step)),
-        Item::Happens { words, .. } if claim.across && is_in_motions(words) => false,
+        Item::Happens { sort, words, .. } if claim.across && (*sort == Sort::Switch || is_in_motions(words)) => false,
         Item::Happens { sort, .. } => !claim.path_only || *sort == Sort::Unmodelled,
     })
 }

@@ -41,6 +41,21 @@ pub(crate) fn stopped(before: &Steps<'_>, after: &Steps<'_>) -> Result<(), Verdi
     Ok(())
 }
 
+/// Variables that outlive a program have other names on another control: whether what they hold is the same is not compared.
+pub(crate) fn nothing_outlives(before: &Steps<'_>, after: &Steps<'_>) -> Result<(), Verdict> {
+    let all = before.stored().into_keys().chain(after.stored().into_keys());
+    match all.into_iter().next() {
+        None => Ok(()),
+        Some(name) => Err(Verdict::Unknown(Difference {
+            before: None,
+            after: None,
+            what: format!(
+                "{name} outlives the program, and which variable of the other control stands for it is not known"
+            ),
+        })),
+    }
+}
+
 /// The state that both leave.
 pub(crate) fn at_end(before: &Steps<'_>, after: &Steps<'_>) -> Result<(), Verdict> {
     let nowhere = |what: String| {

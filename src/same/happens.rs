@@ -1,5 +1,6 @@
 //! Two things that programs do apart from motions.
 use crate::Claim;
+use crate::across::means_the_same;
 use crate::item::{Item, Sort};
 use crate::process::{shown, stops, unlike, unlike_in_motions};
 use crate::sentences::at;
@@ -33,6 +34,12 @@ pub(crate) fn happens(was: &Item, is: &Item, claim: &Claim) -> Result<(), Verdic
     }
     if claim.path_only {
         return Ok(());
+    }
+    if claim.across && *sort != Sort::End && !means_the_same(words) {
+        return Err(Verdict::Unknown(place(format!(
+            "both do `{}`, which is not modelled, and two controls may do different things with it",
+            shown(words)
+        ))));
     }
     if let (Some(was), Some(is), false) = (around, other_around, claim.across) {
         let mut pairs = was.situations.iter().zip(&is.situations);

@@ -10,6 +10,18 @@ use trunnion_interp::{Feed, MotionKind, Orientation, same_number};
 
 /// What must be in effect in both programs, whatever the kinds of the two motions.
 pub(crate) fn in_effect(was: &Step, is: &Step, claim: &Claim) -> Result<(), Verdict> {
+    if claim.across
+        && [was, is]
+            .iter()
+            .any(|step| matches!(step.motion.kind, MotionKind::Unknown | MotionKind::Arc(None)))
+    {
+        let what = "a motion that is not modelled, and two controls may do different things with the same words";
+        return Err(Verdict::Unknown(Difference {
+            before: Some(was.motion.block),
+            after: Some(is.motion.block),
+            what: what.to_owned(),
+        }));
+    }
     if claim.path_only {
         return same_tip(was, is, claim);
     }

@@ -24,6 +24,7 @@ mod initial;
 mod input;
 mod item;
 mod judge;
+mod klartext;
 mod motions;
 mod near;
 mod notes;

@@ -111,7 +111,12 @@ impl Steps<'_> {
     fn read_block(&mut self, block: BlockId, effects: u32, restates: bool) {
         let (program, dialect) = (self.input.program, self.input.dialect);
         let view = program.block(block);
-        if only_steers(&program.text(view.range())) {
+        let text = program.text(view.range());
+        if program.options().format == Format::Klartext {
+            self.since.disturbed |= !crate::klartext::keeps_place(&text);
+            return;
+        }
+        if only_steers(&text) {
             return;
         }
         let all = self.since.lost;

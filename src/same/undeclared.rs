@@ -1,6 +1,7 @@
 //! What nobody declares, and what two programs still have in common.
 use crate::{Input, Steps, offset_name};
 use std::{collections::HashMap, sync::Arc};
+use trunnion_dialect::Dialect;
 use trunnion_interp::{FaultKind, ModalState, Motion, Setup, Tool, UNNAMED_ZERO, WorkOffset};
 use trunnion_syntax::Format;
 
@@ -83,29 +84,41 @@ fn named(unset: &[FaultKind]) -> [Vec<String>; 2] {
 }
 
 /// The setup with stand-ins for the zero points and tool lengths of `unset`: see [`with_stand_ins`]. One alone has a relation too: to positions
-/// in the machine's frame (G53, a reference point), and to motions without a length. `None`: everything is declared.
-pub fn unrelated(setup: &Setup, unset: &[FaultKind]) -> Option<Setup> {
-    unset.iter().any(is_undeclared).then(|| with_stand_ins(setup, unset))
+/// in the machine's frame (G53, a reference point), and to motions without a length. Programs for two controls name the same place differently: then all
+/// zero points are one, and all lengths, as what goes together is compared by itself (decision 0369). `None`: everything is declared.
+pub fn unrelated(setup: &Setup, dialects: [&Dialect; 2], unset: &[FaultKind]) -> Option<Setup> {
+    let alike = crate::across::are_two_controls(dialects);
+    unset
+        .iter()
+        .any(is_undeclared)
+        .then(|| with_values(setup, unset, alike, &stand_in))
 }
 
 /// The setup with stand-ins for the zero points and tool lengths of `unset`. They are unlike each other and no sums of each other, so that
 /// nothing is the same because of them: coordinates depend on these values linearly, and what holds for values without a relation holds
 /// for all.
 pub fn with_stand_ins(setup: &Setup, unset: &[FaultKind]) -> Setup {
-    let mut seed = 0.0;
-    with_values(setup, unset, &mut || {
-        seed += 1.0;
-        // multiples of the golden ratio are spread evenly
-        100.0 * f64::fract(seed * 0.618_033_988_749_895) + 7.0
-    })
+    with_values(setup, unset, false, &stand_in)
+}
+
+/// Multiples of the golden ratio are spread evenly.
+fn stand_in(at: u32) -> f64 {
+    100.0 * f64::fract(f64::from(at) * 0.618_033_988_749_895) + 7.0
 }
 
 /// The setup with the zero points and tool lengths of `unset` at 0.
 pub fn with_zeros(setup: &Setup, unset: &[FaultKind]) -> Setup {
-    with_values(setup, unset, &mut || 0.0)
+    with_values(setup, unset, true, &|_| 0.0)
 }
 
-fn with_values(setup: &Setup, unset: &[FaultKind], next: &mut dyn FnMut() -> f64) -> Setup {
+/// `value`: of the first, second, ... value; with `alike` these are counted anew for each zero point, and each length is the tenth.
+fn with_values(setup: &Setup, unset: &[FaultKind], alike: bool, value: &dyn Fn(u32) -> f64) -> Setup {
+    const LENGTH: u32 = 10;
+    let mut count = 0;
+    let mut next = || {
+        count += 1;
+        value(count)
+    };
     let mut setup = setup.clone();
     // places of the tools by number: a program may use as many as it has lines
     let places = setup.tools.iter().enumerate().rev();
@@ -118,17 +131,22 @@ fn with_values(setup: &Setup, unset: &[FaultKind], next: &mut dyn FnMut() -> f64
                     .work_offsets
                     .iter()
                     .find(|known| offset_name(&known.name) == offset_name(name));
-                let values = known.map_or_else(
-                    || core::array::from_fn(|axis| next() * if (3..6).contains(&axis) { DEG_PER_MM } else { 1.0 }),
-                    |known| known.values,
-                );
+                let of_axis = |axis: usize| if alike { value(axis as u32 + 1) } else { next() };
+                let values = match known {
+                    Some(known) => known.values,
+                    None => core::array::from_fn(of_axis),
+                };
+                let values = core::array::from_fn(|axis| {
+                    let stands_in = known.is_none() && (3..6).contains(&axis);
+                    values[axis] * if stands_in { DEG_PER_MM } else { 1.0 }
+                });
                 let name = name.clone();
                 setup.work_offsets.push(WorkOffset { name, values });
             }
             FaultKind::ToolLengthUnset { tool } => {
                 let digits: String = tool.chars().filter(char::is_ascii_digit).collect();
                 let Ok(number) = digits.parse::<u32>() else { continue };
-                let length = Some(next());
+                let length = Some(if alike { value(LENGTH) } else { next() });
                 if let Some(&at) = places.get(&number) {
                     let known = &mut setup.tools[at];
                     known.length_mm = known.length_mm.or(length);

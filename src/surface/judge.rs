@@ -2,6 +2,8 @@
 use crate::mesh::{Required, Uv};
 use crate::search::{Climb, SAMPLES, Top, top};
 use crate::sheet::Sheet;
+use core::cell::Cell;
+use std::rc::Rc;
 use trunnion_geometry::Vec3;
 use trunnion_machine::{BlockPath, Leg, Machine, tip_deviation};
 use trunnion_syntax::BlockId;
@@ -18,7 +20,13 @@ pub struct Options {
     pub close: f64,
     /// Samples per block that are kept for a picture; 0: none.
     pub spots: usize,
+    /// How often a triangle of the surface may be looked at to find the point nearest to the tip, in all blocks together: [`MOST_PAIRS`].
+    pub pairs: u64,
 }
+
+/// How often triangles are looked at, unless somebody says otherwise. Ordinary surfaces take about ten for each sample; many triangles that are
+/// equally near take all of them.
+pub const MOST_PAIRS: u64 = 100_000_000;
 
 /// A largest error with its place.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -72,6 +80,10 @@ pub struct Errors {
     pub farthest_apart: f64,
     /// The first that was not judged.
     pub first_not_judged: Option<BlockId>,
+    /// Feed blocks with a known path that were not judged because [`Options::pairs`] was used up.
+    pub given_up: u32,
+    /// The first of them.
+    pub first_given_up: Option<BlockId>,
     /// Feed blocks with a same place.
     pub placed: u32,
     /// Samples for a picture.
@@ -89,6 +101,8 @@ pub struct Judge<'a> {
     errors: Errors,
     /// Samples that all blocks together may still take beyond a few of their own.
     left: usize,
+    /// How often triangles may still be looked at.
+    pairs: Rc<Cell<u64>>,
 }
 
 impl<'a> Judge<'a> {
@@ -100,6 +114,7 @@ impl<'a> Judge<'a> {
             options,
             errors: Errors::default(),
             left: SAMPLES_OF_ALL,
+            pairs: Rc::new(Cell::new(options.pairs)),
         }
     }
 
@@ -108,53 +123,54 @@ impl<'a> Judge<'a> {
         if !leg.motion.is_feed() {
             return;
         }
-        let Some(way) = BlockPath::new(self.machine, leg).filter(|_| is_tip) else {
-            self.errors.not_judged += 1;
-            self.errors.first_not_judged.get_or_insert(leg.motion.block);
-            return;
-        };
         let block = leg.motion.block;
+        let Some(way) = BlockPath::new(self.machine, leg).filter(|_| is_tip) else {
+            return self.not_judged(block);
+        };
         let (required, options) = (self.required, self.options);
+        let pairs = Rc::clone(&self.pairs);
         let near = FromSurface {
             way: &way,
             required,
             offset: options.offset,
+            pairs: &pairs,
         };
         let ends = near.sample(0.0).1.max(near.sample(1.0).1);
+        if pairs.get() == 0 {
+            return self.give_up(block);
+        }
+        if !ends.is_finite() {
+            return self.not_judged(block);
+        }
         if ends > options.reach {
             self.errors.apart += 1;
             self.errors.first_apart.get_or_insert(block);
             self.errors.farthest_apart = self.errors.farthest_apart.max(ends);
             return;
         }
-        let index = self.errors.judged;
-        self.errors.judged += 1;
         let reached = |known: &Option<Found>| known.as_ref().map_or(0.0, |found| found.sampled);
         let pieces = first_pieces(&way);
-        let found = top(
-            &near,
-            pieces,
-            self.most(),
-            reached(&self.errors.from_surface),
-            options.close,
-        );
+        let known = reached(&self.errors.from_surface);
+        let found = top(&near, pieces, self.most(), known, options.close);
         self.left = self.left.saturating_sub(found.samples);
         let found = Found {
             bound: found.bound + required.off + leg.motion.slack_mm,
             ..self.found(block, &way, found, true)
         };
+        let same = SamePlace::new(&way, required, &pairs).filter(|_| options.offset == 0.0);
+        let spots = self.spots(&way, &near, same.as_ref());
+        // what was found of a part of the block says nothing about the rest
+        if pairs.get() == 0 {
+            return self.give_up(block);
+        }
+        self.errors.judged += 1;
+        self.errors.spots.extend(spots);
         keep(&mut self.errors.from_surface, found);
 
-        let same = SamePlace::new(&way, required).filter(|_| options.offset == 0.0);
         if let Some(same) = &same {
             self.errors.placed += 1;
-            let found = top(
-                same,
-                pieces,
-                self.most(),
-                reached(&self.errors.same_place),
-                options.close,
-            );
+            let known = reached(&self.errors.same_place);
+            let found = top(same, pieces, self.most(), known, options.close);
             self.left = self.left.saturating_sub(found.samples);
             let found = Found {
                 bound: found.bound + leg.motion.slack_mm,
@@ -172,9 +188,18 @@ impl<'a> Judge<'a> {
             let found = self.found(block, &way, found, false);
             keep(&mut self.errors.from_segment, found);
         }
-        if options.spots > 0 {
-            self.spots(&way, &near, same.as_ref(), index);
-        }
+    }
+
+    /// The path of this block is not known.
+    fn not_judged(&mut self, block: BlockId) {
+        self.errors.not_judged += 1;
+        self.errors.first_not_judged.get_or_insert(block);
+    }
+
+    /// Triangles must not be looked at any more: this block is not judged.
+    fn give_up(&mut self, block: BlockId) {
+        self.errors.given_up += 1;
+        self.errors.first_given_up.get_or_insert(block);
     }
 
     /// Samples that the next block may take.
@@ -183,20 +208,23 @@ impl<'a> Judge<'a> {
     }
 
     /// Samples for a picture.
-    fn spots(&mut self, way: &BlockPath<'_>, near: &FromSurface<'_>, same: Option<&SamePlace<'_>>, leg: u32) {
-        let options = self.options;
-        for i in 0..=options.spots {
-            let t = i as f64 / options.spots as f64;
+    fn spots(&self, way: &BlockPath<'_>, near: &FromSurface<'_>, same: Option<&SamePlace<'_>>) -> Vec<PictureSample> {
+        let count = self.options.spots;
+        let spot = |i: usize| {
+            let t = i as f64 / count as f64;
             let tip = way.at(t).tip;
             let (place, error) = match same {
                 Some(same) => {
                     let place = same.place(t);
                     (place, (tip - place).norm())
                 }
-                None => (self.required.nearest(&tip).point, near.sample(t).1),
+                None => (self.required.nearest_within(&tip, &self.pairs)?.point, near.sample(t).1),
             };
-            self.errors.spots.push(PictureSample { leg, place, tip, error });
-        }
+            let leg = self.errors.judged;
+            Some(PictureSample { leg, place, tip, error })
+        };
+        let all = if count > 0 { 0..count + 1 } else { 0..0 };
+        all.map_while(spot).collect()
     }
 
     /// What was found.
@@ -207,7 +235,8 @@ impl<'a> Judge<'a> {
     fn found(&self, block: BlockId, way: &BlockPath<'_>, top: Top, sided: bool) -> Found {
         let moment = way.at(top.at);
         let side = if sided {
-            let off = moment.tip - self.required.nearest(&moment.tip).point;
+            let near = self.required.nearest_within(&moment.tip, &self.pairs);
+            let off = near.map_or(Vec3::zeros(), |near| moment.tip - near.point);
             let above = off.dot(&moment.axis);
             if above > 1e-9 {
                 1
@@ -253,13 +282,19 @@ struct FromSurface<'a> {
     way: &'a BlockPath<'a>,
     required: &'a Required,
     offset: f64,
+    /// How often triangles may still be looked at.
+    pairs: &'a Cell<u64>,
 }
 
 impl Climb for FromSurface<'_> {
     type Sample = Vec3;
     fn sample(&self, t: f64) -> (Vec3, f64) {
         let tip = self.way.at(t).tip;
-        (tip, (self.required.nearest(&tip).distance - self.offset).abs())
+        let near = self.required.nearest_within(&tip, self.pairs);
+        (
+            tip,
+            near.map_or(f64::INFINITY, |near| (near.distance - self.offset).abs()),
+        )
     }
     fn way(&self, from: &Vec3, to: &Vec3, h: f64) -> (f64, f64) {
         ((to - from).norm(), self.way.tip_bend() * h * h * 0.125)
@@ -280,8 +315,9 @@ struct SamePlace<'a> {
 const ON: f64 = 0.01;
 
 impl<'a> SamePlace<'a> {
-    fn new(way: &'a BlockPath<'a>, required: &'a Required) -> Option<Self> {
-        let [start, end] = [0.0, 1.0].map(|t| required.nearest(&way.at(t).tip));
+    fn new(way: &'a BlockPath<'a>, required: &'a Required, pairs: &Cell<u64>) -> Option<Self> {
+        let [start, end] = [0.0, 1.0].map(|t| required.nearest_within(&way.at(t).tip, pairs));
+        let (start, end) = (start?, end?);
         if start.distance.max(end.distance) > ON + required.off {
             return None;
         }

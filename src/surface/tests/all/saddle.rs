@@ -4,7 +4,7 @@ use trunnion_geometry::{Vec3, deg};
 use trunnion_interp::{Feed, Motion, MotionKind, Orientation, Position};
 use trunnion_machine::{BlockPath, Follower, Leg, MAX_AXES, Machine, Orientations, builtin, inverse, orientations};
 use trunnion_pieces::{Piece, SWall, s_wall, saddle, saddle_net};
-use trunnion_surface::{Errors, Judge, Options, Required, Sheet, required};
+use trunnion_surface::{Errors, Judge, MOST_PAIRS, Options, Required, Sheet, required};
 use trunnion_syntax::BlockId;
 
 /// Part zero above the centre of both rotary axes, mm.
@@ -53,11 +53,16 @@ fn legs(machine: &Machine, piece: &Piece, naive: bool) -> Vec<Leg> {
 }
 
 fn judge(machine: &Machine, required: &Required, legs: &[Leg], close: f64) -> Errors {
+    judge_within(machine, required, legs, (close, MOST_PAIRS))
+}
+
+fn judge_within(machine: &Machine, required: &Required, legs: &[Leg], (close, pairs): (f64, u64)) -> Errors {
     let options = Options {
         offset: 0.0,
         reach: 1.0,
         close,
         spots: 0,
+        pairs,
     };
     let mut judge = Judge::new(required, machine, options);
     for leg in legs {
@@ -216,4 +221,32 @@ fn the_s_wall_keeps_its_chord_error_from_the_exact_wall() {
         assert!(found.sampled < before);
         before = found.sampled;
     }
+}
+
+/// Blocks for which triangles may not be looked at any more are counted and not judged; what is said of the others holds.
+#[test]
+fn blocks_beyond_the_bound_are_not_judged() {
+    let machine = builtin("mikron-ucp710").expect("built in");
+    let surface = required(&moved_net(), false, 0.05).expect("a surface");
+    let legs = legs(machine, &saddle(12, 9, 500.0).expect("a piece"), false);
+    let whole = judge(machine, &surface, &legs, 0.002);
+    assert_eq!((whole.given_up, whole.first_given_up), (0, None));
+    let all = whole.judged + whole.apart;
+    let (mut before, mut parts) = (0, 0);
+    for pairs in [0, 1, 100, 10_000, 100_000, MOST_PAIRS] {
+        let errors = judge_within(machine, &surface, &legs, (0.002, pairs));
+        assert_eq!(errors.judged + errors.apart + errors.given_up, all, "{pairs}");
+        assert_eq!(errors.first_given_up.is_some(), errors.given_up > 0);
+        assert!(errors.judged >= before, "{pairs}");
+        before = errors.judged;
+        parts += u32::from(errors.judged > 0 && errors.given_up > 0);
+        if let (Some(part), Some(found)) = (errors.from_surface, whole.from_surface) {
+            assert!(part.sampled.is_finite() && part.bound.is_finite(), "{part:?}");
+            assert!(part.sampled <= found.bound, "{part:?} {found:?}");
+        } else {
+            assert_eq!(errors.judged, 0);
+        }
+    }
+    assert_eq!(before, whole.judged);
+    assert!(parts > 0);
 }

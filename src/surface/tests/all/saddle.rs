@@ -175,6 +175,7 @@ fn the_s_wall_keeps_its_chord_error_from_the_exact_wall() {
             reach: 1.0,
             close: 1e-4,
             spots: 0,
+            pairs: MOST_PAIRS,
         };
         let mut judge = Judge::new(&wall, machine, options);
         let mut start = Position::default();

@@ -17,7 +17,7 @@ use std::{
 };
 use trunnion_machine::Machine;
 use trunnion_plot::{Unit, height_map};
-use trunnion_surface::{Errors, Found, Judge, MOST_PAIRS, Options, Required, required, required_stl};
+use trunnion_surface::{Errors, Found, Judge, MOST_LOOKS, Options, Required, required, required_stl};
 use trunnion_syntax::{BlockId, LineIndex};
 
 /// `surface`
@@ -124,8 +124,8 @@ fn nothing(command: &Surface, errors: &Errors) -> String {
 /// Why blocks are not judged although their paths are known, and what to do.
 fn beyond() -> String {
     format!(
-        "triangles of the surface were looked at {MOST_PAIRS} times, the most for all blocks together; --lines FIRST-LAST judges a part of the program, \
-         and a surface with fewer long, thin triangles takes less"
+        "{MOST_LOOKS} boxes about triangles of the surface were looked at, the most for all blocks together; --lines FIRST-LAST judges a part of the \
+         program, and a surface without long, thin triangles takes less"
     )
 }
 
@@ -209,7 +209,7 @@ fn judge(
         reach: command.reach,
         close: command.close,
         spots: if command.plot.is_some() { SPOTS } else { 0 },
-        pairs: MOST_PAIRS,
+        looks: MOST_LOOKS,
     };
     let lines = command.lines;
     let mut judge = Judge::new(surface, machine, options);

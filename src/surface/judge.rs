@@ -3,7 +3,6 @@ use crate::mesh::{Required, Uv};
 use crate::search::{Climb, SAMPLES, Top, top};
 use crate::sheet::Sheet;
 use core::cell::Cell;
-use std::rc::Rc;
 use trunnion_geometry::Vec3;
 use trunnion_machine::{BlockPath, Leg, Machine, tip_deviation};
 use trunnion_syntax::BlockId;
@@ -20,13 +19,17 @@ pub struct Options {
     pub close: f64,
     /// Samples per block that are kept for a picture; 0: none.
     pub spots: usize,
-    /// How often a triangle of the surface may be looked at to find the point nearest to the tip, in all blocks together: [`MOST_PAIRS`].
-    pub pairs: u64,
+    /// How many boxes about triangles of the surface may be looked at to find the points nearest to the tip, in all blocks together, beyond a few hundred
+    /// of their own: [`MOST_LOOKS`].
+    pub looks: u64,
 }
 
-/// How often triangles are looked at, unless somebody says otherwise. Ordinary surfaces take about ten for each sample; many triangles that are
-/// equally near take all of them.
-pub const MOST_PAIRS: u64 = 100_000_000;
+/// How many boxes are looked at, unless somebody says otherwise. Ordinary surfaces take less than a hundred for each point; many triangles that
+/// are equally near take all of them.
+pub const MOST_LOOKS: u64 = 100_000_000;
+
+/// What each block may look at, whatever the others took.
+const OWN_LOOKS: u64 = 500;
 
 /// A largest error with its place.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -80,7 +83,7 @@ pub struct Errors {
     pub farthest_apart: f64,
     /// The first that was not judged.
     pub first_not_judged: Option<BlockId>,
-    /// Feed blocks with a known path that were not judged because [`Options::pairs`] was used up.
+    /// Feed blocks with a known path that were not judged because [`Options::looks`] was used up.
     pub given_up: u32,
     /// The first of them.
     pub first_given_up: Option<BlockId>,
@@ -101,8 +104,8 @@ pub struct Judge<'a> {
     errors: Errors,
     /// Samples that all blocks together may still take beyond a few of their own.
     left: usize,
-    /// How often triangles may still be looked at.
-    pairs: Rc<Cell<u64>>,
+    /// Boxes that all blocks together may still look at.
+    looks: u64,
 }
 
 impl<'a> Judge<'a> {
@@ -114,7 +117,7 @@ impl<'a> Judge<'a> {
             options,
             errors: Errors::default(),
             left: SAMPLES_OF_ALL,
-            pairs: Rc::new(Cell::new(options.pairs)),
+            looks: options.looks,
         }
     }
 
@@ -127,16 +130,23 @@ impl<'a> Judge<'a> {
         let Some(way) = BlockPath::new(self.machine, leg).filter(|_| is_tip) else {
             return self.not_judged(block);
         };
+        let left = Cell::new(self.looks.saturating_add(OWN_LOOKS));
+        self.measure(leg, &way, &left);
+        self.looks = self.looks.min(left.get());
+    }
+
+    /// Judges a leg whose path is known; `left`: how many boxes may be looked at.
+    fn measure(&mut self, leg: &Leg, way: &BlockPath<'_>, left: &Cell<u64>) {
+        let block = leg.motion.block;
         let (required, options) = (self.required, self.options);
-        let pairs = Rc::clone(&self.pairs);
         let near = FromSurface {
-            way: &way,
+            way,
             required,
             offset: options.offset,
-            pairs: &pairs,
+            left,
         };
         let ends = near.sample(0.0).1.max(near.sample(1.0).1);
-        if pairs.get() == 0 {
+        if left.get() == 0 {
             return self.give_up(block);
         }
         if !ends.is_finite() {
@@ -149,18 +159,18 @@ impl<'a> Judge<'a> {
             return;
         }
         let reached = |known: &Option<Found>| known.as_ref().map_or(0.0, |found| found.sampled);
-        let pieces = first_pieces(&way);
+        let pieces = first_pieces(way);
         let known = reached(&self.errors.from_surface);
         let found = top(&near, pieces, self.most(), known, options.close);
         self.left = self.left.saturating_sub(found.samples);
         let found = Found {
             bound: found.bound + required.off + leg.motion.slack_mm,
-            ..self.found(block, &way, found, true)
+            ..self.found(block, way, found, Some(left))
         };
-        let same = SamePlace::new(&way, required, &pairs).filter(|_| options.offset == 0.0);
-        let spots = self.spots(&way, &near, same.as_ref());
+        let same = SamePlace::new(way, required, left).filter(|_| options.offset == 0.0);
+        let spots = self.spots(&near, same.as_ref());
         // what was found of a part of the block says nothing about the rest
-        if pairs.get() == 0 {
+        if left.get() == 0 {
             return self.give_up(block);
         }
         self.errors.judged += 1;
@@ -174,7 +184,7 @@ impl<'a> Judge<'a> {
             self.left = self.left.saturating_sub(found.samples);
             let found = Found {
                 bound: found.bound + leg.motion.slack_mm,
-                ..self.found(block, &way, found, false)
+                ..self.found(block, way, found, None)
             };
             keep(&mut self.errors.same_place, found);
         }
@@ -185,7 +195,7 @@ impl<'a> Judge<'a> {
                 bound: deviation.bound_mm,
                 samples: 0,
             };
-            let found = self.found(block, &way, found, false);
+            let found = self.found(block, way, found, None);
             keep(&mut self.errors.from_segment, found);
         }
     }
@@ -196,7 +206,7 @@ impl<'a> Judge<'a> {
         self.errors.first_not_judged.get_or_insert(block);
     }
 
-    /// Triangles must not be looked at any more: this block is not judged.
+    /// Nothing more may be looked at: this block is not judged.
     fn give_up(&mut self, block: BlockId) {
         self.errors.given_up += 1;
         self.errors.first_given_up.get_or_insert(block);
@@ -208,17 +218,17 @@ impl<'a> Judge<'a> {
     }
 
     /// Samples for a picture.
-    fn spots(&self, way: &BlockPath<'_>, near: &FromSurface<'_>, same: Option<&SamePlace<'_>>) -> Vec<PictureSample> {
+    fn spots(&self, near: &FromSurface<'_>, same: Option<&SamePlace<'_>>) -> Vec<PictureSample> {
         let count = self.options.spots;
         let spot = |i: usize| {
             let t = i as f64 / count as f64;
-            let tip = way.at(t).tip;
+            let tip = near.way.at(t).tip;
             let (place, error) = match same {
                 Some(same) => {
                     let place = same.place(t);
                     (place, (tip - place).norm())
                 }
-                None => (self.required.nearest_within(&tip, &self.pairs)?.point, near.sample(t).1),
+                None => (self.required.nearest_within(&tip, near.left)?.point, near.sample(t).1),
             };
             let leg = self.errors.judged;
             Some(PictureSample { leg, place, tip, error })
@@ -232,19 +242,15 @@ impl<'a> Judge<'a> {
         self.errors
     }
 
-    fn found(&self, block: BlockId, way: &BlockPath<'_>, top: Top, sided: bool) -> Found {
+    /// `sided`: where the side of the surface is asked for, how many boxes may be looked at.
+    fn found(&self, block: BlockId, way: &BlockPath<'_>, top: Top, sided: Option<&Cell<u64>>) -> Found {
         let moment = way.at(top.at);
-        let side = if sided {
-            let near = self.required.nearest_within(&moment.tip, &self.pairs);
-            let off = near.map_or(Vec3::zeros(), |near| moment.tip - near.point);
-            let above = off.dot(&moment.axis);
-            if above > 1e-9 {
-                1
-            } else if above < -1e-9 {
-                -1
-            } else {
-                0
-            }
+        let near = sided.and_then(|left| self.required.nearest_within(&moment.tip, left));
+        let above = near.map_or(0.0, |near| (moment.tip - near.point).dot(&moment.axis));
+        let side = if above > 1e-9 {
+            1
+        } else if above < -1e-9 {
+            -1
         } else {
             0
         };
@@ -282,15 +288,15 @@ struct FromSurface<'a> {
     way: &'a BlockPath<'a>,
     required: &'a Required,
     offset: f64,
-    /// How often triangles may still be looked at.
-    pairs: &'a Cell<u64>,
+    /// How many boxes may still be looked at.
+    left: &'a Cell<u64>,
 }
 
 impl Climb for FromSurface<'_> {
     type Sample = Vec3;
     fn sample(&self, t: f64) -> (Vec3, f64) {
         let tip = self.way.at(t).tip;
-        let near = self.required.nearest_within(&tip, self.pairs);
+        let near = self.required.nearest_within(&tip, self.left);
         (
             tip,
             near.map_or(f64::INFINITY, |near| (near.distance - self.offset).abs()),
@@ -315,8 +321,11 @@ struct SamePlace<'a> {
 const ON: f64 = 0.01;
 
 impl<'a> SamePlace<'a> {
-    fn new(way: &'a BlockPath<'a>, required: &'a Required, pairs: &Cell<u64>) -> Option<Self> {
-        let [start, end] = [0.0, 1.0].map(|t| required.nearest_within(&way.at(t).tip, pairs));
+    fn new(way: &'a BlockPath<'a>, required: &'a Required, left: &Cell<u64>) -> Option<Self> {
+        if required.sheets().is_empty() {
+            return None;
+        }
+        let [start, end] = [0.0, 1.0].map(|t| required.nearest_within(&way.at(t).tip, left));
         let (start, end) = (start?, end?);
         if start.distance.max(end.distance) > ON + required.off {
             return None;

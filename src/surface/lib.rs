@@ -11,6 +11,6 @@ mod sheet;
 mod stl;
 
 pub use file::{SurfaceError, required, required_stl};
-pub use judge::{Errors, Found, Judge, MOST_PAIRS, Options, PictureSample};
+pub use judge::{Errors, Found, Judge, MOST_LOOKS, Options, PictureSample};
 pub use mesh::{Nearest, Required, Uv};
 pub use sheet::Sheet;

@@ -120,17 +120,19 @@ impl Required {
         })
     }
 
-    /// The nearest point; `None` where more triangles have to be looked at than are `left`, of which each one that is looked at takes one, or where
-    /// `point` is not a place.
+    /// The nearest point; `None` where more boxes about triangles have to be looked at than are `left`, of which each one takes one, or where `point` is
+    /// not a place.
     pub(crate) fn nearest_within(&self, point: &Vec3, left: &Cell<u64>) -> Option<Nearest> {
         let target = to_parry(point);
         let far = |node: &BvhNode, _: f64| match left.get() {
             // nothing more is looked at
             0 => f64::MAX,
-            _ => node.aabb().distance_to_local_point(target, true),
+            some => {
+                left.set(some - 1);
+                node.aabb().distance_to_local_point(target, true)
+            }
         };
         let triangle = |index: u32, _: f64| {
-            left.set(left.get().checked_sub(1)?);
             let shape = self.mesh.triangle(index);
             let (found, location) = shape.project_local_point_and_get_location(target, false);
             Some(((found.point - target).length(), (found.point, location)))
@@ -186,9 +188,9 @@ mod tests {
         }
     }
 
-    /// A point in the boxes about many triangles looks at all of them, and at no more than it may.
+    /// For a point in the boxes about many triangles all of them are looked at, and no more than may be.
     #[test]
-    fn no_more_triangles_are_looked_at_than_may_be() {
+    fn no_more_boxes_are_looked_at_than_may_be() {
         let count = 1000_u32;
         let mut points = vec![Vec3::zeros()];
         points.extend((0..=count).map(|index| Vec3::new(50.0, f64::from(index) * 0.05, 0.0)));

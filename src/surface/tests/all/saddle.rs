@@ -228,13 +228,13 @@ fn the_s_wall_keeps_its_chord_error_from_the_exact_wall() {
 #[test]
 fn blocks_beyond_the_bound_are_not_judged() {
     let machine = builtin("mikron-ucp710").expect("built in");
-    let surface = required(&moved_net(), false, 0.05).expect("a surface");
+    let surface = required(&moved_net(), false, 0.005).expect("a surface");
     let legs = legs(machine, &saddle(12, 9, 500.0).expect("a piece"), false);
     let whole = judge(machine, &surface, &legs, 0.002);
     assert_eq!((whole.given_up, whole.first_given_up), (0, None));
     let all = whole.judged + whole.apart;
     let mut parts = 0;
-    let steps = std::iter::successors(Some(1000_u64), |looks| Some(looks + looks / 3));
+    let steps = std::iter::successors(Some(1_u64), |looks| Some(looks + looks / 3 + 1));
     for looks in steps.take_while(|looks| *looks < MOST_LOOKS) {
         let errors = judge_within(machine, &surface, &legs, (0.002, looks));
         assert_eq!(errors.judged + errors.apart + errors.given_up, all, "{looks}");

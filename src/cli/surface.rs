@@ -124,7 +124,7 @@ fn nothing(command: &Surface, errors: &Errors) -> String {
 /// Why blocks are not judged although their paths are known, and what to do.
 fn beyond() -> String {
     format!(
-        "{MOST_LOOKS} boxes about triangles of the surface were looked at, the most for all blocks together; --lines FIRST-LAST judges a part of the \
+        "{MOST_LOOKS} boxes about triangles of the surface may be looked at for all blocks together, and there are more; --lines FIRST-LAST judges a part of the \
          program, and a surface without long, thin triangles takes less"
     )
 }
@@ -146,6 +146,11 @@ fn verdict(global: &Global, command: &Surface, errors: &Errors) -> Done {
             format!(
                 "{} feed blocks start or end off the surface; --lines FIRST-LAST leaves them out",
                 errors.apart
+            )
+        } else if errors.first_loose.is_some() {
+            format!(
+                "it is not proven that the error stays within the tolerance: {}",
+                beyond()
             )
         } else {
             "it is not proven that the error stays within the tolerance; --close 0.0001 computes a tighter bound"
@@ -308,6 +313,10 @@ impl Report<'_> {
                 self.line(block),
                 beyond()
             );
+        }
+        if let Some(block) = errors.first_loose {
+            let (line, why) = (self.line(block), beyond());
+            let _ = writeln!(text, "  from line {line} on the bounds are loose: {why}");
         }
         text.push_str("  largest distance of the tip from the\n");
         for (_, name, found) in self.all() {

@@ -20,13 +20,14 @@ pub struct Options {
     /// Samples per block that are kept for a picture; 0: none.
     pub spots: usize,
     /// How many boxes about triangles of the surface may be looked at to find the points nearest to the tip, in all blocks together, beyond a few hundred
-    /// of their own: [`MOST_LOOKS`].
+    /// of their own: [`MOST_LOOKS`]. Those beyond a thousand for one point count eight times.
     pub looks: u64,
 }
 
-/// How many boxes are looked at, unless somebody says otherwise. Ordinary surfaces take less than a hundred for each point; many triangles that
-/// are equally near take all of them.
-pub const MOST_LOOKS: u64 = 100_000_000;
+/// How many boxes are looked at, unless somebody says otherwise. Ordinary surfaces take about a hundred for each point; many triangles that are
+/// equally near take all of them. When half of them is used up, bounds are no longer brought near to the samples; when all are, blocks that need more
+/// are not judged.
+pub const MOST_LOOKS: u64 = 200_000_000;
 
 /// What each block may look at, whatever the others took.
 const OWN_LOOKS: u64 = 500;
@@ -87,6 +88,8 @@ pub struct Errors {
     pub given_up: u32,
     /// The first of them.
     pub first_given_up: Option<BlockId>,
+    /// The first block whose bound was not brought near to its samples because half of [`Options::looks`] was used up.
+    pub first_loose: Option<BlockId>,
     /// Feed blocks with a same place.
     pub placed: u32,
     /// Samples for a picture.
@@ -144,6 +147,7 @@ impl<'a> Judge<'a> {
             required,
             offset: options.offset,
             left,
+            reserve: options.looks / 2,
         };
         let ends = near.sample(0.0).1.max(near.sample(1.0).1);
         if left.get() == 0 {
@@ -172,6 +176,9 @@ impl<'a> Judge<'a> {
         // what was found of a part of the block says nothing about the rest
         if left.get() == 0 {
             return self.give_up(block);
+        }
+        if near.is_spent() {
+            self.errors.first_loose.get_or_insert(block);
         }
         self.errors.judged += 1;
         self.errors.spots.extend(spots);
@@ -290,6 +297,8 @@ struct FromSurface<'a> {
     offset: f64,
     /// How many boxes may still be looked at.
     left: &'a Cell<u64>,
+    /// So many are kept for the first samples of other blocks.
+    reserve: u64,
 }
 
 impl Climb for FromSurface<'_> {
@@ -304,6 +313,9 @@ impl Climb for FromSurface<'_> {
     }
     fn way(&self, from: &Vec3, to: &Vec3, h: f64) -> (f64, f64) {
         ((to - from).norm(), self.way.tip_bend() * h * h * 0.125)
+    }
+    fn is_spent(&self) -> bool {
+        self.left.get() <= self.reserve
     }
 }
 

@@ -8,7 +8,10 @@ const QUOTED: usize = 160;
 /// So many of them are shown.
 const SHOWN: usize = 80;
 
-/// A message in which long texts between backquotes or quotation marks are cut: a value of a file may be as long as the file.
+/// A word, such as a path, of more bytes than this is shortened: no system has longer paths.
+const LONGEST_WORD: usize = 4096;
+
+/// A message in which long texts between backquotes or quotation marks and endless words are cut: a value of a file may be as long as the file.
 pub fn shortened(message: &str) -> Cow<'_, str> {
     if message.len() <= QUOTED {
         return Cow::Borrowed(message);
@@ -18,23 +21,39 @@ pub fn shortened(message: &str) -> Cow<'_, str> {
     while let Some(open) = rest.find(['`', '"']) {
         let quote = rest.as_bytes()[open];
         let (before, quoted) = rest.split_at(open + 1);
-        out.push_str(before);
+        plain(before, &mut out);
         let end = quoted.bytes().position(|byte| byte == quote).unwrap_or(quoted.len());
         let (inside, behind) = quoted.split_at(end);
         match inside.char_indices().nth(QUOTED) {
             None => out.push_str(inside),
-            Some(_) => {
-                let cut = inside.char_indices().nth(SHOWN).map_or(inside.len(), |(at, _)| at);
-                out.push_str(&inside[..cut]);
-                out.push_str("...");
-            }
+            Some(_) => beginning(inside, &mut out),
         }
         let (mark, behind) = behind.split_at(behind.len().min(1));
         out.push_str(mark);
         rest = behind;
     }
-    out.push_str(rest);
+    plain(rest, &mut out);
     Cow::Owned(out)
+}
+
+/// The beginning of a long text.
+fn beginning(text: &str, out: &mut String) {
+    let cut = text.char_indices().nth(SHOWN).map_or(text.len(), |(at, _)| at);
+    out.push_str(&text[..cut]);
+    out.push_str("...");
+}
+
+/// A text without quotes.
+fn plain(text: &str, out: &mut String) {
+    for word in text.split_inclusive(char::is_whitespace) {
+        let own = word.trim_end();
+        if own.len() > LONGEST_WORD {
+            beginning(own, out);
+            out.push_str(&word[own.len()..]);
+        } else {
+            out.push_str(word);
+        }
+    }
 }
 
 fn short(message: String) -> String {
@@ -45,14 +64,11 @@ fn short(message: String) -> String {
     cut.unwrap_or(message)
 }
 
-/// A path as it is shown; longer ones than any system has are cut.
+/// A path as it is shown.
 fn named(path: &Path) -> String {
-    const LONGEST: usize = 4096;
-    let name = path.display().to_string();
-    match name.char_indices().nth(SHOWN) {
-        Some((at, _)) if name.len() > LONGEST => format!("{}...", &name[..at]),
-        _ => name,
-    }
+    let mut name = String::new();
+    plain(&path.display().to_string(), &mut name);
+    name
 }
 
 /// A message with the file, line and column it belongs to.
@@ -127,6 +143,10 @@ mod tests {
             (
                 format!("invalid type: string \"{long}\", expected a"),
                 format!("invalid type: string \"{shown}...\", expected a"),
+            ),
+            (
+                format!("folder /a/{long} does not exist"),
+                format!("folder /a/{}... does not exist", &shown[..2 * (SHOWN - 3)]),
             ),
             (format!("never closed `{long}"), format!("never closed `{shown}...")),
         ] {

@@ -5,7 +5,7 @@ use std::{
     io::{self, Write},
     path::Path,
 };
-use trunnion_workspace::LoadError;
+use trunnion_workspace::{LoadError, shortened};
 
 /// The job could not be done (exit status 2).
 #[derive(Debug)]
@@ -20,7 +20,7 @@ impl Failure {
     pub(crate) fn new(message: impl Into<String>) -> Self {
         Self {
             place: String::new(),
-            message: message.into(),
+            message: shortened(&message.into()).into_owned(),
             broken_pipe: false,
         }
     }
@@ -33,7 +33,7 @@ impl Failure {
         };
         Self {
             place,
-            message: message.to_string(),
+            message: shortened(&message.to_string()).into_owned(),
             broken_pipe: false,
         }
     }

@@ -17,7 +17,7 @@ use std::{
 };
 use trunnion_machine::Machine;
 use trunnion_plot::{Unit, height_map};
-use trunnion_surface::{Errors, Found, Judge, Options, Required, required, required_stl};
+use trunnion_surface::{Errors, Found, Judge, MOST_LOOKS, Options, Required, required, required_stl};
 use trunnion_syntax::{BlockId, LineIndex};
 
 /// `surface`
@@ -108,6 +108,9 @@ pub(super) fn run(global: &Global, command: &Surface) -> Result<Done, Failure> {
 
 /// Why nothing was compared.
 fn nothing(command: &Surface, errors: &Errors) -> String {
+    if errors.given_up > 0 {
+        return format!("nothing could be compared: {}", beyond());
+    }
     if errors.apart > 0 {
         return format!(
             "all {} feed blocks start or end farther than {} mm from the surface (up to {:.3} mm): check that both are in the same frame; \
@@ -118,6 +121,14 @@ fn nothing(command: &Surface, errors: &Errors) -> String {
     "no feed motion's path is known, so nothing can be compared".to_owned()
 }
 
+/// Why blocks are not judged although their paths are known, and what to do.
+fn beyond() -> String {
+    format!(
+        "{MOST_LOOKS} boxes about triangles of the surface may be looked at for all blocks together, and there are more; --lines FIRST-LAST judges a part of the \
+         program, and a surface without long, thin triangles takes less"
+    )
+}
+
 /// With a tolerance: above it is found; between it and the bound, or with blocks that are not judged, it is unknown.
 fn verdict(global: &Global, command: &Surface, errors: &Errors) -> Done {
     let (Some(tolerance), Some(found)) = (command.tolerance, &errors.from_surface) else {
@@ -126,13 +137,20 @@ fn verdict(global: &Global, command: &Surface, errors: &Errors) -> Done {
     if found.sampled > tolerance {
         return Done::Found;
     }
-    if found.bound > tolerance || errors.not_judged > 0 || errors.apart > 0 {
-        let why = if errors.not_judged > 0 {
+    if found.bound > tolerance || errors.not_judged > 0 || errors.given_up > 0 || errors.apart > 0 {
+        let why = if errors.given_up > 0 {
+            format!("{} feed blocks are not judged: {}", errors.given_up, beyond())
+        } else if errors.not_judged > 0 {
             "the path of some feed blocks is unknown".to_owned()
         } else if errors.apart > 0 {
             format!(
                 "{} feed blocks start or end off the surface; --lines FIRST-LAST leaves them out",
                 errors.apart
+            )
+        } else if errors.first_loose.is_some() {
+            format!(
+                "it is not proven that the error stays within the tolerance: {}",
+                beyond()
             )
         } else {
             "it is not proven that the error stays within the tolerance; --close 0.0001 computes a tighter bound"
@@ -196,6 +214,7 @@ fn judge(
         reach: command.reach,
         close: command.close,
         spots: if command.plot.is_some() { SPOTS } else { 0 },
+        looks: MOST_LOOKS,
     };
     let lines = command.lines;
     let mut judge = Judge::new(surface, machine, options);
@@ -266,7 +285,7 @@ impl Report<'_> {
             text,
             "  {} feed blocks judged, {} unknown; surface of {} triangles, at most {:.6} mm off",
             errors.judged,
-            errors.not_judged,
+            errors.not_judged + errors.given_up,
             self.surface.triangles(),
             self.surface.off
         );
@@ -285,6 +304,19 @@ impl Report<'_> {
                 "  the path of line {} (and perhaps of others) is unknown: see `trunnion check`",
                 self.line(block)
             );
+        }
+        if let Some(block) = errors.first_given_up {
+            let _ = writeln!(
+                text,
+                "  {} feed blocks, the first at line {}, are not judged: {}",
+                errors.given_up,
+                self.line(block),
+                beyond()
+            );
+        }
+        if let Some(block) = errors.first_loose {
+            let (line, why) = (self.line(block), beyond());
+            let _ = writeln!(text, "  from line {line} on the bounds are loose: {why}");
         }
         text.push_str("  largest distance of the tip from the\n");
         for (_, name, found) in self.all() {
@@ -350,7 +382,8 @@ impl Report<'_> {
                           "triangles": self.surface.triangles(), "off_mm": self.surface.off },
             "offset_mm": self.command.offset,
             "judged": errors.judged,
-            "not_judged": errors.not_judged,
+            "not_judged": errors.not_judged + errors.given_up,
+            "given_up": errors.given_up,
             "apart": errors.apart,
             "farthest_apart_mm": errors.farthest_apart,
             "on_surface": errors.placed,

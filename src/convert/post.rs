@@ -1,11 +1,14 @@
 //! Posts: number formats and templates of a control, as a TOML table in `grammar/posts` or your own file.
-use crate::template::{fill, names};
+use crate::template::fill;
 use core::ops::Range;
 use serde::Deserialize;
 use std::collections::BTreeMap;
 use std::sync::OnceLock;
 use toml::Spanned;
 use trunnion_machine::Machine;
+
+mod templates;
+use templates::{TEMPLATES, check_template};
 
 /// Names of the posts that are built in: those of their dialects.
 pub const BUILTIN_POSTS: &[&str] = &[
@@ -32,57 +35,6 @@ const TEXTS: [&str; 8] = [
 ];
 
 static LOADED: [OnceLock<Option<Post>>; 8] = [const { OnceLock::new() }; 8];
-
-/// Templates and the names that they may use.
-const TEMPLATES: &[(&str, &[&str])] = &[
-    (
-        "header",
-        &[
-            "program",
-            "title",
-            "number",
-            "tools",
-            "machine",
-            "units",
-            "feed_mode",
-            "work_offset",
-        ],
-    ),
-    ("footer", &["program", "title", "number"]),
-    ("comment", &["text"]),
-    ("message", &["text"]),
-    ("work-offset", &["work_offset"]),
-    ("tool-change", &["tool"]),
-    ("spindle-clockwise", &["speed"]),
-    ("spindle-counter-clockwise", &["speed"]),
-    ("spindle-speed", &["speed"]),
-    ("spindle-stop", &[]),
-    ("coolant-flood", &[]),
-    ("coolant-mist", &[]),
-    ("coolant-thru", &[]),
-    ("coolant-thru-off", &[]),
-    ("coolant-air", &[]),
-    ("coolant-off", &[]),
-    ("exact-stop", &[]),
-    ("exact-path", &[]),
-    ("continuous-path", &[]),
-    ("stop", &[]),
-    ("optional-stop", &[]),
-    ("auxiliary", &["number"]),
-    ("dwell", &["seconds", "milliseconds"]),
-    ("units-mm", &[]),
-    ("units-inch", &[]),
-    ("feed-per-minute", &[]),
-    ("feed-inverse-time", &[]),
-    ("feed-per-revolution", &[]),
-    ("length-on", &["tool"]),
-    ("length-off", &[]),
-    ("tcp-words-on", &["tool", "tcp_on"]),
-    ("tcp-vectors-on", &["tool", "tcp_on"]),
-    ("tcp-off", &["tcp_off"]),
-    ("vector", &["i", "j", "k"]),
-    ("arc-radius", &["radius"]),
-];
 
 /// Why a post cannot be used.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -287,43 +239,6 @@ fn base(raw: &RawPost) -> Result<Post, PostError> {
         work_offset: "G54".to_owned(),
         templates: BTreeMap::new(),
     })
-}
-
-/// A template must be known, and so must the names in it.
-fn check_template(text: &str, key: &Spanned<String>, value: &Spanned<String>) -> Result<(), PostError> {
-    let Some((_, allowed)) = TEMPLATES.iter().find(|(known, _)| known == key.get_ref()) else {
-        let known: Vec<&str> = TEMPLATES.iter().map(|(known, _)| *known).collect();
-        let message = format!(
-            "no template is named {:?}; there are {}",
-            key.get_ref(),
-            known.join(", ")
-        );
-        return Err(fault(key.span(), message));
-    };
-    let mut unknown = names(value.get_ref()).filter(|(_, name)| !allowed.contains(name));
-    let Some((_, name)) = unknown.next() else { return Ok(()) };
-    // the place in the file: escapes may shift offsets, so the name itself is looked for
-    let span = value.span();
-    let wanted = format!("{{{name}");
-    let at = text[span.clone()]
-        .find(&wanted)
-        .map_or(span.start, |at| span.start + at);
-    let may = if allowed.is_empty() {
-        "it takes none".to_owned()
-    } else {
-        format!(
-            "it takes {}",
-            allowed
-                .iter()
-                .map(|name| format!("{{{name}}}"))
-                .collect::<Vec<_>>()
-                .join(" ")
-        )
-    };
-    Err(fault(
-        at..at + wanted.len(),
-        format!("the template {} has the unknown name {{{name}}}; {may}", key.get_ref()),
-    ))
 }
 
 impl Post {

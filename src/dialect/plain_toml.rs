@@ -38,6 +38,9 @@ pub fn plain_toml(file: Option<KeyFile>, text: &str, message: &str, span: Option
     {
         return told;
     }
+    if message == "recursion limit" || message.starts_with("cannot recurse further") {
+        return TOO_DEEP.to_owned();
+    }
     let expected = ["invalid type: ", "invalid value: ", "invalid length "];
     // one of several words
     if message == "wanted string or table" {
@@ -49,6 +52,10 @@ pub fn plain_toml(file: Option<KeyFile>, text: &str, message: &str, span: Option
     };
     told().unwrap_or_else(|| message.to_owned())
 }
+
+/// Dots, brackets or braces without end.
+const TOO_DEEP: &str = "lists, tables or dotted keys stand inside each other too often here; no key of such a file is more than a few levels deep: \
+                        remove the brackets, braces or dots that are too many";
 
 /// Something that the reader refuses, with its place.
 struct Complaint<'t> {

@@ -76,14 +76,14 @@ pub fn read(path: &Path, most: u64) -> Result<Option<Input>, FileError> {
     Ok(Some(Input { bytes, seen }))
 }
 
-/// Largest text of posts, tables of tools and certificates, MiB.
+/// Largest text of certificates and of machines of other programs, MiB.
 const MOST_TEXT: u64 = 64;
 
-/// Largest text of settings, machines and dialect tables, MiB: what is read of them takes up to 60 times as much memory, and each entry is compared
+/// Largest text of settings, machines, dialect tables and posts, MiB: what is read of them takes up to 60 times as much memory, and each entry is compared
 /// with others. People write them; 2 MiB are 30 000 tools.
 const MOST_SETTINGS: u64 = 2;
 
-/// Reads a text file (post, certificate) of at most 64 MiB.
+/// Reads a text file (certificate, machine of another program) of at most 64 MiB. A mark of the encoding at its start is left out.
 ///
 /// # Errors
 /// As [`read`]; the file is larger, or is not UTF-8, with the byte where that shows.
@@ -91,7 +91,7 @@ pub fn read_text(path: &Path) -> Result<String, FileError> {
     text_up_to(path, MOST_TEXT, "")
 }
 
-/// Reads settings, a machine or a dialect table of at most 2 MiB.
+/// Reads settings, a machine, a dialect table or a post of at most 2 MiB, likewise.
 ///
 /// # Errors
 /// As [`read_text`].
@@ -105,7 +105,12 @@ fn text_up_to(path: &Path, most: u64, remedy: &str) -> Result<String, FileError>
             format!("is larger than {most} MiB, the largest size for a file of this kind; it was not read{remedy}");
         return Err(FileError::new(path, what));
     };
-    String::from_utf8(input.bytes).map_err(|error| {
+    let mut bytes = input.bytes;
+    // a mark of the encoding, which editors write, is no part of the text
+    if bytes.starts_with(b"\xef\xbb\xbf") {
+        bytes.drain(..3);
+    }
+    String::from_utf8(bytes).map_err(|error| {
         let at = error.utf8_error().valid_up_to() + 1;
         FileError::new(path, format!("is not UTF-8 text (from byte {at} on); save it as UTF-8"))
     })
@@ -149,6 +154,15 @@ mod tests {
             let error = read(Path::new("/dev/zero"), 100).expect_err("a device");
             assert!(error.message.starts_with("is a device"), "{error}");
         }
+    }
+
+    #[test]
+    fn a_mark_of_the_encoding_is_no_part_of_the_text() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let path = folder.path().join("m.ini");
+        fs::write(&path, "\u{feff}[EMC]\n").expect("written");
+        assert_eq!(read_text(&path).expect("read"), "[EMC]\n");
+        assert_eq!(read_settings(&path).expect("read"), "[EMC]\n");
     }
 
     #[test]

@@ -26,6 +26,8 @@ pub struct Called {
 #[derive(Clone, Debug, Default)]
 pub struct Library {
     files: Vec<Arc<Called>>,
+    /// Numbers of the files by the names that they were called by.
+    known: HashMap<Key, u16>,
     /// Names that are not there, with the folders that were searched.
     missing: HashMap<Key, Vec<Searched>>,
 }
@@ -33,7 +35,7 @@ pub struct Library {
 impl Library {
     /// How many entries of other lists a clone copies: names and the folders that were searched.
     pub fn copied(&self) -> usize {
-        self.files.len() + self.missing.len() * MISSING
+        2 * self.files.len() + self.missing.len() * MISSING
     }
 
     /// A file by its number.
@@ -55,8 +57,8 @@ impl Library {
     where
         T: AsRef<[u8]>,
     {
-        if let Some(place) = self.files.iter().position(|called| called.name == *name) {
-            return Ok(place as u16 + 1);
+        if let Some(known) = self.known.get(name) {
+            return Ok(*known);
         }
         if let Some(searched) = self.missing.get(name) {
             return Err(searched.clone());
@@ -74,7 +76,9 @@ impl Library {
                         path,
                         program: parse(bytes.as_ref().to_vec(), lex),
                     }));
-                    return Ok(self.files.len() as u16);
+                    let number = self.files.len() as u16;
+                    self.known.insert(name.clone(), number);
+                    return Ok(number);
                 }
                 Ok(_) => break,
                 Err(folders) => {
@@ -121,5 +125,29 @@ mod tests {
             assert!(searched == again);
         }
         assert_eq!(asked.get(), 2 * MOST_MISSING);
+    }
+
+    /// Each file is loaded once and keeps its number, however many others were called before it. They were searched one after the other
+    /// for each call.
+    #[test]
+    fn a_file_that_was_called_is_known_by_its_name() {
+        let (mut library, loaded) = (Library::default(), Cell::new(0_usize));
+        let mut find = |number: u32| {
+            let load = |file: &str| {
+                loaded.set(loaded.get() + 1);
+                Ok::<_, Vec<Searched>>((file.to_owned(), Vec::<u8>::new()))
+            };
+            let tried = || vec![format!("O{number}")];
+            let lex = trunnion_syntax::LexOptions::default();
+            library.find(&Key::Number(number), tried, lex, load).expect("loaded")
+        };
+        for number in 0..60_000 {
+            assert_eq!(find(number), number as u16 + 1);
+        }
+        for number in (0..60_000).rev() {
+            assert_eq!(find(number), number as u16 + 1);
+        }
+        assert_eq!(loaded.get(), 60_000);
+        assert_eq!(library.copied(), 120_000);
     }
 }

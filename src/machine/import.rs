@@ -30,4 +30,6 @@ fn short(text: &str) -> String {
 }
 
 #[cfg(test)]
+mod bounds_tests;
+#[cfg(test)]
 mod tests;

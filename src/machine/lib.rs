@@ -13,7 +13,7 @@ mod path;
 pub use compare::{AlongBlock, Comparison, Effort, TipDifference};
 pub use file::builtin::{BUILTIN_MACHINES, builtin, builtin_source};
 pub use file::describe::{AxisDescription, Description, describe};
-pub use file::obstacle::RawObstacle;
+pub use file::obstacle::{MOST_OBSTACLES, RawObstacle};
 pub use file::spec::{MachineError, load};
 pub use follow::checkpoint::Memory;
 pub use follow::choice::direction_letter;

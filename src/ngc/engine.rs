@@ -1,6 +1,7 @@
 //! The engine: one line after the other, in the order in which the control runs them.
 use crate::flow::Flow;
 use crate::{Block, Canon, Error, FileId, Setup, Source, State};
+use foldhash::HashMap;
 use std::sync::Arc;
 use trunnion_formula::Variables;
 use trunnion_syntax::TextRange;
@@ -75,6 +76,8 @@ pub enum Step {
 pub struct Engine {
     pub(crate) setup: Arc<Setup>,
     pub(crate) files: Vec<Arc<Source>>,
+    /// The files that were opened after the main program, by their paths.
+    pub(crate) opened: Arc<HashMap<String, FileId>>,
     /// What is in effect.
     pub state: State,
     /// The order of execution.
@@ -97,6 +100,7 @@ impl Engine {
         Self {
             setup: Arc::new(setup.clone()),
             files: vec![main],
+            opened: Arc::default(),
             state: State::new(setup.start == crate::Start::Unknown),
             flow: Flow::new(setup),
             block: None,

@@ -2,8 +2,8 @@
 use crate::mesh::Required;
 use crate::patch::{HIGHEST_DEGREE, Patch};
 use crate::sheet::Sheet;
+use crate::stl;
 use serde::Deserialize;
-use std::io::Cursor;
 use trunnion_geometry::Vec3;
 
 /// What is wrong with a surface's file.
@@ -137,39 +137,19 @@ fn points(rows: Rows, name: &str, most: usize) -> Result<Vec<Vec<Vec3>>, Surface
     Ok(all)
 }
 
-/// Reads an STL, binary or ASCII; its numbers are taken as mm.
+/// Reads an STL of at most 64 MiB, binary or ASCII; its numbers are taken as mm.
 ///
 /// # Errors
-/// What is wrong.
+/// What is wrong, with line and column in an ASCII file.
 pub fn required_stl(bytes: &[u8]) -> Result<Required, SurfaceError> {
-    let broken = |why: String| wrong(format!("cannot be read as STL: {why}"));
-    // a binary file announces its size: a larger one than the file is refused before memory is reserved
-    if let Some(count) = bytes.get(80..84).filter(|_| !bytes.starts_with(b"solid")) {
-        let count = count.iter().rev().fold(0_u64, |sum, byte| sum << 8 | u64::from(*byte));
-        let holds = (bytes.len() as u64 - 84) / 50;
-        if count > holds {
-            return Err(broken(format!("it announces {count} triangles but contains {holds}")));
-        }
+    let corners = stl::triangles(bytes)?;
+    if corners.is_empty() {
+        return Err(wrong(
+            "cannot be read as STL: it has no triangles; export the surface again",
+        ));
     }
-    let mut cursor = Cursor::new(bytes);
-    let reader = stl_io::create_stl_reader(&mut cursor).map_err(|error| broken(error.to_string()))?;
-    let (mut points, mut triangles) = (Vec::new(), Vec::new());
-    for triangle in reader {
-        let triangle = triangle.map_err(|error| broken(error.to_string()))?;
-        let base = points.len() as u32;
-        for vertex in triangle.vertices {
-            let point = Vec3::new(f64::from(vertex[0]), f64::from(vertex[1]), f64::from(vertex[2]));
-            if !point.iter().all(|value| value.is_finite()) {
-                return Err(broken(format!(
-                    "triangle {} has a corner that is not a number",
-                    triangles.len() + 1
-                )));
-            }
-            points.push(point);
-        }
-        triangles.push([base, base + 1, base + 2]);
-    }
-    Required::from_triangles(&points, triangles).map_err(wrong)
+    let triangles = (0..corners.len() as u32).map(|index| [3 * index, 3 * index + 1, 3 * index + 2]);
+    Required::from_triangles(corners.as_flattened(), triangles.collect()).map_err(wrong)
 }
 
 #[cfg(test)]

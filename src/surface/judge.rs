@@ -2,6 +2,7 @@
 use crate::mesh::{Required, Uv};
 use crate::search::{Climb, SAMPLES, Top, top};
 use crate::sheet::Sheet;
+use core::cell::Cell;
 use trunnion_geometry::Vec3;
 use trunnion_machine::{BlockPath, Leg, Machine, tip_deviation};
 use trunnion_syntax::BlockId;
@@ -18,7 +19,18 @@ pub struct Options {
     pub close: f64,
     /// Samples per block that are kept for a picture; 0: none.
     pub spots: usize,
+    /// How many boxes about triangles of the surface may be looked at to find the points nearest to the tip, in all blocks together, beyond a few hundred
+    /// of their own: [`MOST_LOOKS`]. Those beyond a thousand for one point count eight times.
+    pub looks: u64,
 }
+
+/// How many boxes are looked at, unless somebody says otherwise. Ordinary surfaces take about a hundred for each point; many triangles that are
+/// equally near take all of them. When half of them is used up, bounds are no longer brought near to the samples; when all are, blocks that need more
+/// are not judged.
+pub const MOST_LOOKS: u64 = 200_000_000;
+
+/// What each block may look at, whatever the others took.
+const OWN_LOOKS: u64 = 500;
 
 /// A largest error with its place.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -72,6 +84,12 @@ pub struct Errors {
     pub farthest_apart: f64,
     /// The first that was not judged.
     pub first_not_judged: Option<BlockId>,
+    /// Feed blocks with a known path that were not judged because [`Options::looks`] was used up.
+    pub given_up: u32,
+    /// The first of them.
+    pub first_given_up: Option<BlockId>,
+    /// The first block whose bound was not brought near to its samples because half of [`Options::looks`] was used up.
+    pub first_loose: Option<BlockId>,
     /// Feed blocks with a same place.
     pub placed: u32,
     /// Samples for a picture.
@@ -89,6 +107,8 @@ pub struct Judge<'a> {
     errors: Errors,
     /// Samples that all blocks together may still take beyond a few of their own.
     left: usize,
+    /// Boxes that all blocks together may still look at.
+    looks: u64,
 }
 
 impl<'a> Judge<'a> {
@@ -100,6 +120,7 @@ impl<'a> Judge<'a> {
             options,
             errors: Errors::default(),
             left: SAMPLES_OF_ALL,
+            looks: options.looks,
         }
     }
 
@@ -108,57 +129,69 @@ impl<'a> Judge<'a> {
         if !leg.motion.is_feed() {
             return;
         }
+        let block = leg.motion.block;
         let Some(way) = BlockPath::new(self.machine, leg).filter(|_| is_tip) else {
-            self.errors.not_judged += 1;
-            self.errors.first_not_judged.get_or_insert(leg.motion.block);
-            return;
+            return self.not_judged(block);
         };
+        let left = Cell::new(self.looks.saturating_add(OWN_LOOKS));
+        self.measure(leg, &way, &left);
+        self.looks = self.looks.min(left.get());
+    }
+
+    /// Judges a leg whose path is known; `left`: how many boxes may be looked at.
+    fn measure(&mut self, leg: &Leg, way: &BlockPath<'_>, left: &Cell<u64>) {
         let block = leg.motion.block;
         let (required, options) = (self.required, self.options);
         let near = FromSurface {
-            way: &way,
+            way,
             required,
             offset: options.offset,
+            left,
+            reserve: options.looks / 2,
         };
         let ends = near.sample(0.0).1.max(near.sample(1.0).1);
+        if left.get() == 0 {
+            return self.give_up(block);
+        }
+        if !ends.is_finite() {
+            return self.not_judged(block);
+        }
         if ends > options.reach {
             self.errors.apart += 1;
             self.errors.first_apart.get_or_insert(block);
             self.errors.farthest_apart = self.errors.farthest_apart.max(ends);
             return;
         }
-        let index = self.errors.judged;
-        self.errors.judged += 1;
         let reached = |known: &Option<Found>| known.as_ref().map_or(0.0, |found| found.sampled);
-        let pieces = first_pieces(&way);
-        let found = top(
-            &near,
-            pieces,
-            self.most(),
-            reached(&self.errors.from_surface),
-            options.close,
-        );
+        let pieces = first_pieces(way);
+        let known = reached(&self.errors.from_surface);
+        let found = top(&near, pieces, self.most(), known, options.close);
         self.left = self.left.saturating_sub(found.samples);
         let found = Found {
             bound: found.bound + required.off + leg.motion.slack_mm,
-            ..self.found(block, &way, found, true)
+            ..self.found(block, way, found, Some(left))
         };
+        let same = SamePlace::new(way, required, left).filter(|_| options.offset == 0.0);
+        let spots = self.spots(&near, same.as_ref());
+        // what was found of a part of the block says nothing about the rest
+        if left.get() == 0 {
+            return self.give_up(block);
+        }
+        if near.is_spent() {
+            self.errors.first_loose.get_or_insert(block);
+        }
+        self.errors.judged += 1;
+        self.errors.spots.extend(spots);
         keep(&mut self.errors.from_surface, found);
 
-        let same = SamePlace::new(&way, required).filter(|_| options.offset == 0.0);
         if let Some(same) = &same {
             self.errors.placed += 1;
-            let found = top(
-                same,
-                pieces,
-                self.most(),
-                reached(&self.errors.same_place),
-                options.close,
-            );
+            let known = reached(&self.errors.same_place);
+            let found = top(same, pieces, self.most(), known, options.close);
             self.left = self.left.saturating_sub(found.samples);
             let found = Found {
                 bound: found.bound + leg.motion.slack_mm,
-                ..self.found(block, &way, found, false)
+                ..self.found(block, way, found, None)
             };
             keep(&mut self.errors.same_place, found);
         }
@@ -169,12 +202,21 @@ impl<'a> Judge<'a> {
                 bound: deviation.bound_mm,
                 samples: 0,
             };
-            let found = self.found(block, &way, found, false);
+            let found = self.found(block, way, found, None);
             keep(&mut self.errors.from_segment, found);
         }
-        if options.spots > 0 {
-            self.spots(&way, &near, same.as_ref(), index);
-        }
+    }
+
+    /// The path of this block is not known.
+    fn not_judged(&mut self, block: BlockId) {
+        self.errors.not_judged += 1;
+        self.errors.first_not_judged.get_or_insert(block);
+    }
+
+    /// Nothing more may be looked at: this block is not judged.
+    fn give_up(&mut self, block: BlockId) {
+        self.errors.given_up += 1;
+        self.errors.first_given_up.get_or_insert(block);
     }
 
     /// Samples that the next block may take.
@@ -183,20 +225,23 @@ impl<'a> Judge<'a> {
     }
 
     /// Samples for a picture.
-    fn spots(&mut self, way: &BlockPath<'_>, near: &FromSurface<'_>, same: Option<&SamePlace<'_>>, leg: u32) {
-        let options = self.options;
-        for i in 0..=options.spots {
-            let t = i as f64 / options.spots as f64;
-            let tip = way.at(t).tip;
+    fn spots(&self, near: &FromSurface<'_>, same: Option<&SamePlace<'_>>) -> Vec<PictureSample> {
+        let count = self.options.spots;
+        let spot = |i: usize| {
+            let t = i as f64 / count as f64;
+            let tip = near.way.at(t).tip;
             let (place, error) = match same {
                 Some(same) => {
                     let place = same.place(t);
                     (place, (tip - place).norm())
                 }
-                None => (self.required.nearest(&tip).point, near.sample(t).1),
+                None => (self.required.nearest_within(&tip, near.left)?.point, near.sample(t).1),
             };
-            self.errors.spots.push(PictureSample { leg, place, tip, error });
-        }
+            let leg = self.errors.judged;
+            Some(PictureSample { leg, place, tip, error })
+        };
+        let all = if count > 0 { 0..count + 1 } else { 0..0 };
+        all.map_while(spot).collect()
     }
 
     /// What was found.
@@ -204,18 +249,15 @@ impl<'a> Judge<'a> {
         self.errors
     }
 
-    fn found(&self, block: BlockId, way: &BlockPath<'_>, top: Top, sided: bool) -> Found {
+    /// `sided`: where the side of the surface is asked for, how many boxes may be looked at.
+    fn found(&self, block: BlockId, way: &BlockPath<'_>, top: Top, sided: Option<&Cell<u64>>) -> Found {
         let moment = way.at(top.at);
-        let side = if sided {
-            let off = moment.tip - self.required.nearest(&moment.tip).point;
-            let above = off.dot(&moment.axis);
-            if above > 1e-9 {
-                1
-            } else if above < -1e-9 {
-                -1
-            } else {
-                0
-            }
+        let near = sided.and_then(|left| self.required.nearest_within(&moment.tip, left));
+        let above = near.map_or(0.0, |near| (moment.tip - near.point).dot(&moment.axis));
+        let side = if above > 1e-9 {
+            1
+        } else if above < -1e-9 {
+            -1
         } else {
             0
         };
@@ -253,16 +295,27 @@ struct FromSurface<'a> {
     way: &'a BlockPath<'a>,
     required: &'a Required,
     offset: f64,
+    /// How many boxes may still be looked at.
+    left: &'a Cell<u64>,
+    /// So many are kept for the first samples of other blocks.
+    reserve: u64,
 }
 
 impl Climb for FromSurface<'_> {
     type Sample = Vec3;
     fn sample(&self, t: f64) -> (Vec3, f64) {
         let tip = self.way.at(t).tip;
-        (tip, (self.required.nearest(&tip).distance - self.offset).abs())
+        let near = self.required.nearest_within(&tip, self.left);
+        (
+            tip,
+            near.map_or(f64::INFINITY, |near| (near.distance - self.offset).abs()),
+        )
     }
     fn way(&self, from: &Vec3, to: &Vec3, h: f64) -> (f64, f64) {
         ((to - from).norm(), self.way.tip_bend() * h * h * 0.125)
+    }
+    fn is_spent(&self) -> bool {
+        self.left.get() <= self.reserve
     }
 }
 
@@ -280,8 +333,12 @@ struct SamePlace<'a> {
 const ON: f64 = 0.01;
 
 impl<'a> SamePlace<'a> {
-    fn new(way: &'a BlockPath<'a>, required: &'a Required) -> Option<Self> {
-        let [start, end] = [0.0, 1.0].map(|t| required.nearest(&way.at(t).tip));
+    fn new(way: &'a BlockPath<'a>, required: &'a Required, left: &Cell<u64>) -> Option<Self> {
+        if required.sheets().is_empty() {
+            return None;
+        }
+        let [start, end] = [0.0, 1.0].map(|t| required.nearest_within(&way.at(t).tip, left));
+        let (start, end) = (start?, end?);
         if start.distance.max(end.distance) > ON + required.off {
             return None;
         }

@@ -8,8 +8,9 @@ mod mesh;
 mod patch;
 mod search;
 mod sheet;
+mod stl;
 
 pub use file::{SurfaceError, required, required_stl};
-pub use judge::{Errors, Found, Judge, Options, PictureSample};
+pub use judge::{Errors, Found, Judge, MOST_LOOKS, Options, PictureSample};
 pub use mesh::{Nearest, Required, Uv};
 pub use sheet::Sheet;

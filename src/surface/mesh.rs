@@ -1,12 +1,20 @@
 //! A required surface, prepared for nearest-point queries.
 use crate::sheet::Sheet;
+use core::cell::Cell;
 use parry3d_f64::math::Vector;
-use parry3d_f64::query::PointQueryWithLocation;
+use parry3d_f64::partitioning::BvhNode;
+use parry3d_f64::query::{PointQuery, PointQueryWithLocation};
 use parry3d_f64::shape::TriMesh;
 use trunnion_geometry::Vec3;
 
 /// The most triangles that sheets are cut into, all together.
 const MOST_TRIANGLES: usize = 1_500_000;
+
+/// So many boxes are looked at for one point at the cost of one each.
+const NEAR: u64 = 1000;
+
+/// The cost of each further one: these are many and far apart in memory, and each is fetched from there.
+const FAR_COST: u64 = 8;
 
 /// A place on a sheet.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -111,8 +119,36 @@ impl Required {
 
     /// The nearest point.
     pub fn nearest(&self, point: &Vec3) -> Nearest {
-        let (found, (triangle, location)) = self.mesh.project_local_point_and_get_location(to_parry(point), false);
-        let near = from_parry(&found.point);
+        self.nearest_within(point, &Cell::new(u64::MAX)).unwrap_or(Nearest {
+            distance: f64::NAN,
+            point: *point,
+            uv: None,
+        })
+    }
+
+    /// The nearest point; `None` where more boxes about triangles have to be looked at than are `left`, or where `point` is not a place. Each box takes
+    /// one, and from [`NEAR`] on [`FAR_COST`].
+    pub(crate) fn nearest_within(&self, point: &Vec3, left: &Cell<u64>) -> Option<Nearest> {
+        let target = to_parry(point);
+        let looked = Cell::new(0_u64);
+        let far = |node: &BvhNode, _: f64| match left.get() {
+            // nothing more is looked at
+            0 => f64::MAX,
+            some => {
+                looked.set(looked.get() + 1);
+                let cost = if looked.get() > NEAR { FAR_COST } else { 1 };
+                left.set(some.saturating_sub(cost));
+                node.aabb().distance_to_local_point(target, true)
+            }
+        };
+        let triangle = |index: u32, _: f64| {
+            let shape = self.mesh.triangle(index);
+            let (found, location) = shape.project_local_point_and_get_location(target, false);
+            Some(((found.point - target).length(), (found.point, location)))
+        };
+        let found = self.mesh.bvh().find_best(f64::MAX, far, triangle);
+        let (triangle, (_, (near, location))) = found.filter(|_| left.get() > 0)?;
+        let near = from_parry(&near);
         let weights = location.barycentric_coordinates();
         let uv = weights.filter(|_| !self.places.is_empty()).map(|weights| {
             let corners = self.mesh.indices()[triangle as usize].map(|i| self.places[i as usize]);
@@ -123,11 +159,11 @@ impl Required {
                 v: mix(1),
             }
         });
-        Nearest {
+        Some(Nearest {
             distance: (near - point).norm(),
             point: near,
             uv,
-        }
+        })
     }
 }
 
@@ -159,6 +195,31 @@ mod tests {
             let uv = found.uv.expect("on a sheet");
             assert!((uv.u - u).abs() < 1e-3 && (uv.v - v).abs() < 1e-3, "{uv:?}");
         }
+    }
+
+    /// For a point in the boxes about many triangles all of them are looked at, and no more than may be.
+    #[test]
+    fn no_more_boxes_are_looked_at_than_may_be() {
+        let count = 600_u32;
+        let mut points = vec![Vec3::zeros()];
+        points.extend((0..=count).map(|index| Vec3::new(50.0, f64::from(index) / 12.0, 0.0)));
+        let fan = (1..=count).map(|index| [0, index, index + 1]).collect();
+        let required = Required::from_triangles(&points, fan).expect("a surface");
+        let aside = Vec3::new(10.0, 30.0, 0.0);
+        let left = Cell::new(u64::MAX);
+        let found = required.nearest_within(&aside, &left).expect("enough");
+        let looked = u64::MAX - left.get();
+        assert!((found.distance - 200.0_f64.sqrt()).abs() < 1e-9, "{found:?}");
+        assert!(looked >= 300 && looked <= NEAR, "{looked}");
+        for most in [0, 1, 10, looked] {
+            let left = Cell::new(most);
+            assert_eq!(required.nearest_within(&aside, &left), None, "{most}");
+            assert_eq!(left.get(), 0);
+        }
+        let left = Cell::new(looked + 1);
+        assert_eq!(required.nearest_within(&aside, &left), Some(found));
+        let off = Vec3::new(f64::NAN, 0.0, 0.0);
+        assert!(required.nearest(&off).distance.is_nan());
     }
 
     #[test]

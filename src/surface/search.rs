@@ -11,6 +11,10 @@ pub(crate) trait Climb {
     /// The largest distance that the path covers from one sample to another `h` later; and how much more a value between them may be than a
     /// straight path explains.
     fn way(&self, from: &Self::Sample, to: &Self::Sample, h: f64) -> (f64, f64);
+    /// Whether no more samples are to be taken than those of the first pieces.
+    fn is_spent(&self) -> bool {
+        false
+    }
 }
 
 /// What is known about the largest value on a block.
@@ -87,7 +91,11 @@ pub(crate) fn top<C: Climb>(climb: &C, first_pieces: usize, most: usize, reached
     }
     let mut samples = first_pieces + 1;
     while let Some(open) = heap.peek() {
-        if open.bound <= best.0.max(reached) + close || samples >= most || open.bound == f64::INFINITY {
+        if open.bound <= best.0.max(reached) + close
+            || samples >= most
+            || climb.is_spent()
+            || open.bound == f64::INFINITY
+        {
             break;
         }
         let Some(open) = heap.pop() else { break };
@@ -122,6 +130,29 @@ mod tests {
         fn way(&self, from: &f64, to: &f64, _h: f64) -> (f64, f64) {
             (to - from, 0.0)
         }
+    }
+
+    /// The same hill, of which nobody may take more samples.
+    struct Spent;
+
+    impl Climb for Spent {
+        type Sample = f64;
+        fn sample(&self, t: f64) -> (f64, f64) {
+            Hill.sample(t)
+        }
+        fn way(&self, from: &f64, to: &f64, h: f64) -> (f64, f64) {
+            Hill.way(from, to, h)
+        }
+        fn is_spent(&self) -> bool {
+            true
+        }
+    }
+
+    #[test]
+    fn the_bound_of_the_first_pieces_holds() {
+        let found = top(&Spent, 4, SAMPLES, 0.0, 1e-6);
+        assert_eq!(found.samples, 5);
+        assert!(found.sampled < 2.0 && found.bound >= 2.0, "{found:?}");
     }
 
     #[test]

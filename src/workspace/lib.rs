@@ -4,15 +4,17 @@
 //!
 //! It reads files and never writes. It does not know terminals or LSP.
 mod error;
+mod kept;
 mod listing;
 mod machine;
 mod obstacles;
 mod resolve;
+mod settings;
 mod subprograms;
 mod table;
 mod texts;
 
-pub use error::LoadError;
+pub use error::{LoadError, shortened};
 pub use machine::{FoundMachine, find_machine};
 pub use resolve::{Overrides, Resolved, resolve};
 pub use subprograms::Subprograms;

@@ -1,7 +1,10 @@
 //! A machine by name or file.
-use crate::{LoadError, Texts};
+use crate::{LoadError, Texts, kept::Kept};
 use std::path::{Path, PathBuf};
-use trunnion_machine::Machine;
+use trunnion_machine::{Machine, MachineError};
+
+/// Machine files that were read last.
+static MACHINES: Kept<Result<Machine, MachineError>> = Kept::new();
 
 /// A machine and the file that describes it.
 #[derive(Clone, Debug)]
@@ -82,8 +85,10 @@ fn unknown(name: &str) -> LoadError {
 fn load(path: &Path, texts: &Texts) -> Result<FoundMachine, LoadError> {
     let text = texts.read(path)?;
     let id = path.file_stem().and_then(|stem| stem.to_str()).unwrap_or("machine");
-    let machine = trunnion_machine::load(id, &text)
-        .map_err(|error| LoadError::at(path, &text, error.span.as_ref(), &error.message))?;
+    let machine = match &*MACHINES.of(id, &text, || trunnion_machine::load(id, &text)) {
+        Ok(machine) => machine.clone(),
+        Err(error) => return Err(LoadError::at(path, &text, error.span.as_ref(), &error.message)),
+    };
     let file = Some(path.to_owned());
     Ok(FoundMachine { machine, file })
 }

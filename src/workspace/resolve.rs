@@ -3,6 +3,7 @@ use crate::{
     FoundMachine, LoadError, Subprograms, Texts,
     machine::{find_in, machine_of_comment},
     obstacles,
+    settings::{config_for, folder_of, with_settings},
 };
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -119,16 +120,17 @@ impl Resolved {
 /// A file that cannot be read or is not valid, an unknown name; each with its place.
 pub fn resolve(path: Option<&Path>, source: &[u8], overrides: &Overrides) -> Result<Resolved, LoadError> {
     let (config, config_file) = config_for(path, overrides)?;
+    let config = &*config;
     let config_path = config_file.as_ref().map(|(path, _)| path.clone());
     let mode = trunnion_dialect::modeline(source);
-    let (machine, machine_reason) = machine_for(path, overrides, &mode, &config, config_file.as_ref())?;
-    offsets_fit(&config, config_file.as_ref(), machine.as_ref())?;
+    let (machine, machine_reason) = machine_for(path, overrides, &mode, config, config_file.as_ref())?;
+    offsets_fit(config, config_file.as_ref(), machine.as_ref())?;
     let (machine, machine_file) = machine.map_or((None, None), |found| (Some(found.machine), found.file));
     let file_name = path.and_then(Path::file_name).and_then(|name| name.to_str());
     let (detected, dialect_file) = dialect_for(
         overrides,
         &mode,
-        (&config, config_file.as_ref()),
+        (config, config_file.as_ref()),
         file_name,
         source,
         machine.as_ref(),
@@ -154,7 +156,7 @@ pub fn resolve(path: Option<&Path>, source: &[u8], overrides: &Overrides) -> Res
     let declared = setup.control.tcp_codes.take();
     Machine::tell(machine.as_ref(), &mut setup.control);
     setup.control.tcp_codes = declared.or(setup.control.tcp_codes);
-    let subprograms = subprograms(path, &config, config_file.as_ref(), &overrides.texts)?;
+    let subprograms = subprograms(path, config, config_file.as_ref(), &overrides.texts)?;
     setup.library = Library(subprograms.clone().map(|found| found as Arc<dyn Files>));
     let mut port_to = config.port_to.clone();
     for name in &overrides.port_to {
@@ -171,7 +173,8 @@ pub fn resolve(path: Option<&Path>, source: &[u8], overrides: &Overrides) -> Res
             return Err(LoadError::new(format!("--assume {name}: this cannot be assumed{hint}")));
         }
     }
-    let mut machine = machine.map(|machine| config.machine_with_tolerances(&machine));
+    let settled = machine.map(|machine| with_settings(&machine, config, config_file.as_ref()));
+    let mut machine = settled.transpose()?;
     if detected.foreign.is_none() {
         obstacles::declare(path, source, detected.dialect, machine.as_mut())?;
     }
@@ -250,39 +253,6 @@ fn subprograms(
         return Ok(None);
     }
     Ok(Some(Arc::new(Subprograms::new(folders).with_texts(texts))))
-}
-
-/// The settings and their file with its text: `--config`, or `trunnion.toml` in the program's folder (standard input: the current one) or above.
-fn config_for(path: Option<&Path>, overrides: &Overrides) -> Result<(Config, Option<(PathBuf, String)>), LoadError> {
-    let found = match &overrides.config {
-        Some(file) => Some(file.clone()),
-        None => folder_of(path).and_then(|folder| {
-            folder
-                .ancestors()
-                .map(|folder| folder.join("trunnion.toml"))
-                .find(|file| file.is_file())
-        }),
-    };
-    let Some(file) = found else {
-        return Ok((Config::default(), None));
-    };
-    let text = overrides.texts.read(&file)?;
-    let config =
-        Config::parse(&text).map_err(|error| LoadError::at(&file, &text, error.span.as_ref(), &error.message))?;
-    Ok((config, Some((file, text))))
-}
-
-/// The canonical folder of the program, links followed; of standard input the current folder; for a document that is not saved the folder
-/// of its name.
-fn folder_of(path: Option<&Path>) -> Option<PathBuf> {
-    let Some(path) = path else {
-        return std::env::current_dir().ok();
-    };
-    let file = std::fs::canonicalize(path)
-        .or_else(|_| std::path::absolute(path))
-        .ok()?;
-    let folder = file.parent()?;
-    Some(std::fs::canonicalize(folder).unwrap_or_else(|_| folder.to_owned()))
 }
 
 /// Whether the work offsets of the settings give each linear axis of the machine.

@@ -117,3 +117,33 @@ fn a_line_that_is_right_is_shown() {
         ),
     ]);
 }
+
+/// Brackets, braces and dots without end: the reader of TOML says `recursion limit`.
+#[test]
+fn what_is_nested_too_deeply_is_told() {
+    for text in [
+        format!("a = {}", "[".repeat(100_000)),
+        format!("a = {}", "{a = ".repeat(1000)),
+        format!("a = {}{}", "[".repeat(100), "]".repeat(100)),
+        format!("a{} = 1", ".a".repeat(100_000)),
+    ] {
+        let error = crate::config::Config::parse(&text).expect_err("too deep");
+        assert!(error.message.contains("remove the brackets, braces or dots"), "{error}");
+    }
+}
+
+/// As many obstacles as are judged, and one more.
+#[test]
+fn too_many_obstacles_are_told_at_the_first_of_them() {
+    let boxes = |count: usize| "[[obstacle]]\nbox = [[0, 0, 0], [1, 1, 1]]\n".repeat(count);
+    let most = trunnion_machine::MOST_OBSTACLES;
+    let config = crate::config::Config::parse(&boxes(most)).expect("as many as may be");
+    assert_eq!(config.obstacles.len(), most);
+    let text = boxes(most + 5);
+    let error = crate::config::Config::parse(&text).expect_err("too many");
+    assert!(
+        error.message.starts_with("more than 1000 obstacles are declared; put "),
+        "{error}"
+    );
+    assert_eq!(error.span.expect("a place").start, boxes(most).len());
+}

@@ -76,8 +76,8 @@ pub(super) struct Declared {
 
 /// Values by number, and by name, each sorted. `dialect`: the one that the settings name.
 pub(super) fn variables(section: &FileVariables, dialect: Option<&Dialect>) -> Result<Declared, ConfigError> {
-    let mut numbered: Vec<(u32, Option<f64>)> = Vec::new();
-    let mut named: Vec<(String, f64)> = Vec::new();
+    let mut numbered: BTreeMap<u32, Option<f64>> = BTreeMap::new();
+    let mut named: BTreeMap<String, f64> = BTreeMap::new();
     for (name, value) in section {
         let variable = read(name.get_ref(), dialect).map_err(|why| fault(name, why))?;
         let held = match value.get_ref() {
@@ -101,24 +101,18 @@ pub(super) fn variables(section: &FileVariables, dialect: Option<&Dialect>) -> R
                 ));
             }
         };
-        let is_twice = match &variable {
-            Variable::Number(number) => numbered.iter().any(|(known, _)| known == number),
-            Variable::Name(text, _) => named.iter().any(|(known, _)| known == text),
+        let twice = match (variable, held) {
+            (Variable::Number(number), held) => numbered.insert(number, held).map(|_| format!("#{number}")),
+            (Variable::Name(text, _), Some(held)) => named.insert(text.clone(), held).map(|_| text),
+            (Variable::Name(..), None) => None,
         };
-        match (variable, held) {
-            (Variable::Number(number), _) if is_twice => {
-                return Err(fault(name, format!("#{number} is declared twice")));
-            }
-            (Variable::Name(text, _), _) if is_twice => return Err(fault(name, format!("{text} is declared twice"))),
-            (Variable::Number(number), held) => numbered.push((number, held)),
-            (Variable::Name(text, _), held) => named.extend(held.map(|held| (text, held))),
+        if let Some(twice) = twice {
+            return Err(fault(name, format!("{twice} is declared twice")));
         }
     }
-    numbered.sort_unstable_by_key(|(number, _)| *number);
-    named.sort_unstable_by(|one, other| one.0.cmp(&other.0));
     Ok(Declared {
-        numbered,
-        named: NamedVariables(named),
+        numbered: numbered.into_iter().collect(),
+        named: NamedVariables(named.into_iter().collect()),
     })
 }
 
@@ -303,6 +297,21 @@ mod tests {
         }
         assert!(Config::parse("[variables]\n500 = 1\n\"#500\" = 2\n").is_err(), "twice");
         assert!(Config::parse("[variables]\nR1 = 1\nr01 = 2\n").is_err(), "twice");
+    }
+
+    /// As many variables as a file can hold; each was compared with all before it.
+    #[test]
+    fn many_variables_are_read_in_their_order() {
+        let numbers: String = (0..90_000).rev().map(|at| format!("R{at} = 1\n")).collect();
+        let config = Config::parse(&format!("[variables]\n{numbers}")).expect("valid");
+        assert_eq!(config.setup.named_variables.0.len(), 90_000);
+        let named = &config.setup.named_variables.0;
+        assert!(named.is_sorted_by(|one, other| one.0 < other.0));
+        let again = format!("[variables]\n{numbers}r0 = 2\n");
+        assert_eq!(
+            Config::parse(&again).expect_err("twice").message,
+            "R0 is declared twice"
+        );
     }
 
     /// A variable of another control than the one that the settings name is refused, with the form of that control.

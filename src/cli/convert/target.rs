@@ -1,5 +1,5 @@
 //! The target of a conversion: the arguments of `convert`, and of `fix --rewrite retarget`.
-use crate::cli::{failure::Failure, load, load::Loaded};
+use crate::cli::{failure::Failure, load::Loaded};
 use std::path::{Path, PathBuf};
 use trunnion_check::did_you_mean;
 use trunnion_convert::{BUILTIN_POSTS, Post, Target, builtin_post, load_post};
@@ -74,9 +74,7 @@ impl TargetArgs {
 
     /// The user's own post, with the place of a mistake in it.
     fn own_post(&self, path: &Path) -> Result<Post, Failure> {
-        let bytes = load::read(path)?;
-        let text =
-            String::from_utf8(bytes).map_err(|_| Failure::file(path, "is not UTF-8; a TOML file must be UTF-8"))?;
+        let text = trunnion_files::read_settings(path)?;
         let post = load_post(&text).map_err(|error| LoadError::at(path, &text, error.span.as_ref(), &error.message))?;
         if self.to.as_ref().is_some_and(|name| *name != post.dialect) {
             return Err(Failure::new(format!(

@@ -194,10 +194,8 @@ impl Ngc<'_> {
     fn step_rs274(&mut self, run: &mut Rs274, program: &Program, sink: &mut impl Sink) -> Option<BlockId> {
         let Rs274 { engine, calls, done } = run;
         // a line of a file runs in a step after the one that opened it
-        if calls.paths.len() != engine.file_count() {
-            calls.paths = (0..engine.file_count() as u32)
-                .map(|file| engine.path(FileId(file)).into())
-                .collect();
+        while calls.paths.len() < engine.file_count() {
+            calls.paths.push(engine.path(FileId(calls.paths.len() as u32)).into());
         }
         let mut bridge = Bridge {
             core: &mut self.core,

@@ -145,3 +145,19 @@ fn the_schema_comes_first() {
     assert_eq!(&text[other.span.clone().expect("a place")], "\"ncmachine/2\"");
     assert!(other.message.contains("reads \"ncmachine/1\""), "{other}");
 }
+
+/// As many obstacles as are judged, and one more.
+#[test]
+fn too_many_obstacles_are_told_at_the_first_of_them() {
+    let boxes = |count: usize| "[[obstacle]]\nbox = [[0, 0, 0], [1, 1, 1]]\n".repeat(count);
+    let machine = load("good", &file("tail", &boxes(1000))).expect("as many as may be");
+    assert_eq!(machine.obstacles.0.len(), 1000);
+    let text = file("tail", &boxes(1001));
+    let error = load("bad", &text).expect_err("too many");
+    assert!(
+        error.message.starts_with("more than 1000 obstacles are declared; put "),
+        "{error}"
+    );
+    let start = error.span.expect("a place").start;
+    assert_eq!(text[..start].matches("[[obstacle]]").count(), 1000);
+}

@@ -92,8 +92,8 @@ impl Obstacle {
     }
 }
 
-/// Each motion is judged against each obstacle, and ways round them are searched through all of their corners.
-const MOST_OBSTACLES: usize = 1000;
+/// Most obstacles of a machine with its settings: each motion is judged against each obstacle, and ways round them are searched through all of their corners.
+pub const MOST_OBSTACLES: usize = 1000;
 
 fn fault<T>(place: &Spanned<T>, message: impl Into<String>) -> Fault {
     Fault {
@@ -117,7 +117,9 @@ fn obstacle(entry: &Spanned<RawObstacle>, known: &[Obstacle]) -> Result<Obstacle
         }
         Some(name) => name.get_ref().clone(),
     };
-    if let (Some(written), true) = (&raw.name, known.iter().any(|other| other.name == name)) {
+    if let Some(written) = &raw.name
+        && known.iter().any(|other| other.name == name)
+    {
         return Err(fault(written, format!("obstacle {name:?} is declared twice")));
     }
     let (footprint, [bottom, top]) = shape(entry)?;

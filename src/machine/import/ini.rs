@@ -28,6 +28,13 @@ impl<'a> Ini<'a> {
         let mut section = "";
         let mut start = 0;
         let mut continued = false;
+        if let Some(at) = lone_return(text) {
+            return Err(MachineError {
+                message: "a line ends in CR alone, which the control does not take for the end of a line: save the file with line ends LF or CR LF"
+                    .to_owned(),
+                span: Some(at..at + 1),
+            });
+        }
         for raw in text.split_inclusive('\n') {
             let at = start + (raw.len() - raw.trim_start().len());
             let line = raw.trim();
@@ -76,6 +83,13 @@ impl<'a> Ini<'a> {
     pub(super) fn number(&self, section: &str, key: &str) -> Result<Option<f64>, MachineError> {
         self.get(section, key).map(Entry::number).transpose()
     }
+}
+
+/// The first CR that no LF follows, except at the end of the file.
+fn lone_return(text: &str) -> Option<usize> {
+    let returns = text.match_indices('\r').map(|(at, _)| at);
+    let mut lone = returns.filter(|at| !matches!(text.as_bytes().get(at + 1), None | Some(b'\n')));
+    lone.next()
 }
 
 impl Entry<'_> {

@@ -13,7 +13,7 @@ use crate::MachineError;
 pub fn import_linuxcnc(name: &str, text: &str, given: &[(String, f64)]) -> Result<Imported, MachineError> {
     let ini = Ini::read(text)?;
     let kins = kinematics(&ini)?;
-    let letters = letters(&ini, &kins.arguments)?;
+    let letters = letters(&ini, &kins)?;
     let mut offsets = Offsets {
         pins: Pins::new(&ini, &kins.module, given),
         open: Vec::new(),
@@ -63,11 +63,7 @@ pub fn import_linuxcnc(name: &str, text: &str, given: &[(String, f64)]) -> Resul
             "the REMAP files define which codes switch the kinematics, and they are not read: declare [control] tcp_codes".to_owned(),
         );
     }
-    for file in &ini.includes {
-        draft
-            .open
-            .push(format!("#INCLUDE {file}: not read; its contents are missing here"));
-    }
+    includes(&ini, &mut draft.open);
     if kins.section != "KINS" {
         draft
             .open
@@ -83,6 +79,22 @@ pub fn import_linuxcnc(name: &str, text: &str, given: &[(String, f64)]) -> Resul
             .push("HAL files are not read: offsets set there are missing here".to_owned());
     }
     Ok(draft.finish())
+}
+
+/// Files that are included and not read; where there are many, how many more.
+fn includes(ini: &Ini<'_>, open: &mut Vec<String>) {
+    const NAMED: usize = 10;
+    for file in ini.includes.iter().take(NAMED) {
+        open.push(format!(
+            "#INCLUDE {}: not read; its contents are missing here",
+            super::short(file)
+        ));
+    }
+    if let more @ 1.. = ini.includes.len().saturating_sub(NAMED) {
+        open.push(format!(
+            "#INCLUDE: {more} more lines, not read; their contents are missing here"
+        ));
+    }
 }
 
 /// The module and its arguments.
@@ -109,21 +121,39 @@ fn kinematics(ini: &Ini<'_>) -> Result<Kinematics, MachineError> {
     })
 }
 
+/// Joints of a LinuxCNC machine (`EMCMOT_MAX_JOINTS` in emcmotcfg.h).
+const MOST_JOINTS: usize = 16;
+
 /// The letters in joint order; a letter that occurs twice has two joints.
-fn letters(ini: &Ini<'_>, arguments: &[String]) -> Result<Vec<char>, MachineError> {
-    let own = arguments.iter().find_map(|word| word.strip_prefix("coordinates="));
+fn letters(ini: &Ini<'_>, kins: &Kinematics) -> Result<Vec<char>, MachineError> {
+    let own = kins.arguments.iter().find_map(|word| word.strip_prefix("coordinates="));
     let entry = ini.get("TRAJ", "COORDINATES");
     let text = own.or(entry.map(|entry| entry.value));
-    let span = entry.map(|entry| entry.span.clone());
+    let written = entry.filter(|_| own.is_none());
+    let span = written.map_or_else(|| kins.span.clone(), |entry| entry.span.clone());
+    let span = Some(span).filter(|_| text.is_some());
     let letters: Vec<char> = text
         .unwrap_or("")
         .chars()
         .filter(|c| !c.is_whitespace())
         .map(|c| c.to_ascii_uppercase())
         .collect();
+    let whose = if own.is_some() {
+        "coordinates="
+    } else {
+        "[TRAJ] COORDINATES"
+    };
     let known = |letter: &char| "XYZABCUVW".contains(*letter);
     if letters.is_empty() || !letters.iter().all(known) {
-        let message = "[TRAJ] COORDINATES must name the axes, with letters of XYZABCUVW".to_owned();
+        let message = format!("{whose} must name the axes, with letters of XYZABCUVW");
+        return Err(MachineError { message, span });
+    }
+    if letters.len() > MOST_JOINTS {
+        let message = format!(
+            "{whose} has {} letters, one for each joint, and LinuxCNC has at most {MOST_JOINTS} joints: name each axis once, and one that two motors \
+             move twice",
+            letters.len()
+        );
         return Err(MachineError { message, span });
     }
     Ok(letters)

@@ -113,12 +113,13 @@ impl Engine {
         if u32::try_from(loaded.bytes.len()).is_err() {
             return None;
         }
-        let there = self.files.iter().skip(1).position(|source| source.path == loaded.path);
-        let id = there.map_or(self.files.len(), |at| at + 1);
-        if there.is_none() {
-            self.files.push(Arc::new(Source::new(loaded.path, loaded.bytes)));
+        if let Some(known) = self.opened.get(&loaded.path) {
+            return Some(*known);
         }
-        Some(FileId(id as u32))
+        let id = FileId(self.files.len() as u32);
+        Arc::make_mut(&mut self.opened).insert(loaded.path.clone(), id);
+        self.files.push(Arc::new(Source::new(loaded.path, loaded.bytes)));
+        Some(id)
     }
     /// `o... sub`, and an O word alone.
     pub(super) fn sub(

@@ -362,3 +362,30 @@ mod properties {
         }
     }
 }
+
+/// One file for every name.
+struct OneFile;
+
+impl Files for OneFile {
+    fn load(&self, _: &str) -> Result<Loaded, Vec<Searched>> {
+        let subs = (100..150).map(|number| format!("o{number} sub\nG0 X{number}\no{number} endsub\n"));
+        Ok(Loaded {
+            path: "all.ngc".to_owned(),
+            bytes: Arc::from(subs.collect::<String>().as_bytes()),
+        })
+    }
+}
+
+/// A file is opened once, under whatever names it is found. All files that were open were searched for each new name.
+#[test]
+fn a_file_is_opened_once() {
+    let setup = Setup {
+        files: Some(Arc::new(OneFile)),
+        ..Setup::default()
+    };
+    let calls: String = (100..150).rev().map(|number| format!("o{number} call\n")).collect();
+    let (engine, heard, _) = run(format!("{calls}M2\n").as_bytes(), &setup, true);
+    assert!(heard.errors.is_empty(), "{:?}", &heard.errors[..1]);
+    assert_eq!((engine.file_count(), heard.feeds.len()), (2, 50));
+    assert!(heard.feeds.iter().all(|at| at.file == FileId(1)));
+}

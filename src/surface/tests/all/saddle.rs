@@ -4,7 +4,7 @@ use trunnion_geometry::{Vec3, deg};
 use trunnion_interp::{Feed, Motion, MotionKind, Orientation, Position};
 use trunnion_machine::{BlockPath, Follower, Leg, MAX_AXES, Machine, Orientations, builtin, inverse, orientations};
 use trunnion_pieces::{Piece, SWall, s_wall, saddle, saddle_net};
-use trunnion_surface::{Errors, Judge, Options, Required, Sheet, required};
+use trunnion_surface::{Errors, Judge, MOST_LOOKS, Options, Required, Sheet, required};
 use trunnion_syntax::BlockId;
 
 /// Part zero above the centre of both rotary axes, mm.
@@ -53,11 +53,16 @@ fn legs(machine: &Machine, piece: &Piece, naive: bool) -> Vec<Leg> {
 }
 
 fn judge(machine: &Machine, required: &Required, legs: &[Leg], close: f64) -> Errors {
+    judge_within(machine, required, legs, (close, MOST_LOOKS))
+}
+
+fn judge_within(machine: &Machine, required: &Required, legs: &[Leg], (close, looks): (f64, u64)) -> Errors {
     let options = Options {
         offset: 0.0,
         reach: 1.0,
         close,
         spots: 0,
+        looks,
     };
     let mut judge = Judge::new(required, machine, options);
     for leg in legs {
@@ -170,6 +175,7 @@ fn the_s_wall_keeps_its_chord_error_from_the_exact_wall() {
             reach: 1.0,
             close: 1e-4,
             spots: 0,
+            looks: MOST_LOOKS,
         };
         let mut judge = Judge::new(&wall, machine, options);
         let mut start = Position::default();
@@ -216,4 +222,39 @@ fn the_s_wall_keeps_its_chord_error_from_the_exact_wall() {
         assert!(found.sampled < before);
         before = found.sampled;
     }
+}
+
+/// Blocks for which nothing more may be looked at are counted and not judged; what is said of the others holds.
+#[test]
+fn blocks_beyond_the_bound_are_not_judged() {
+    let machine = builtin("mikron-ucp710").expect("built in");
+    let surface = required(&moved_net(), false, 0.005).expect("a surface");
+    let legs = legs(machine, &saddle(12, 9, 500.0).expect("a piece"), false);
+    let whole = judge(machine, &surface, &legs, 0.002);
+    assert_eq!(
+        (whole.given_up, whole.first_given_up, whole.first_loose),
+        (0, None, None)
+    );
+    let all = whole.judged + whole.apart;
+    let (mut parts, mut loose) = (0, 0);
+    let steps = std::iter::successors(Some(1_u64), |looks| Some(looks + looks / 3 + 1));
+    for looks in steps.take_while(|looks| *looks < MOST_LOOKS) {
+        let errors = judge_within(machine, &surface, &legs, (0.002, looks));
+        assert_eq!(errors.judged + errors.apart + errors.given_up, all, "{looks}");
+        assert_eq!(errors.first_given_up.is_some(), errors.given_up > 0);
+        parts += u32::from(errors.judged > 0 && errors.given_up > 0);
+        loose += u32::from(errors.given_up == 0 && errors.first_loose.is_some());
+        if let (Some(part), Some(found)) = (errors.from_surface, whole.from_surface) {
+            assert!(part.sampled.is_finite() && part.bound.is_finite(), "{part:?}");
+            assert!(part.sampled <= found.bound, "{part:?} {found:?}");
+            // loose or not, the bound of all blocks is one
+            assert!(errors.given_up > 0 || part.bound >= found.sampled, "{part:?} {found:?}");
+        } else {
+            assert_eq!(errors.judged, 0);
+        }
+        if errors == whole {
+            break;
+        }
+    }
+    assert!(parts > 0 && loose > 0, "{parts} {loose}");
 }

@@ -146,3 +146,64 @@ fn comments_declare_obstacles() {
         1
     );
 }
+
+/// What a command or the server has read before does not hide a change of the file.
+#[test]
+fn settings_and_machine_that_changed_are_read_again() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let main = folder.path().join("main.nc");
+    write(folder.path(), "main.nc", "M30\n");
+    let own = trunnion_machine::builtin_source("mill-3axis").expect("built in");
+    for (depth, name) in [(7, "first"), (7, "first"), (8, "second")] {
+        write(
+            folder.path(),
+            "trunnion.toml",
+            &format!("machine = \"own.toml\"\n[limits]\ndepth = {depth}\n"),
+        );
+        write(
+            folder.path(),
+            "own.toml",
+            &format!("{own}\n[[obstacle]]\nname = \"{name}\"\nbox = [[0, 0, 0], [1, 1, 1]]\n"),
+        );
+        let resolved = resolve(Some(&main), b"M30\n", &Overrides::default()).expect("resolved");
+        assert_eq!(resolved.setup.limits.depth, depth);
+        let machine = resolved.machine.expect("named");
+        assert!(machine.obstacles.0.iter().any(|obstacle| obstacle.name == name));
+    }
+    write(folder.path(), "trunnion.toml", "depth = 7\n");
+    for _ in 0..2 {
+        let Err(error) = resolve(Some(&main), b"M30\n", &Overrides::default()) else {
+            panic!("resolved")
+        };
+        assert!(error.place.ends_with("trunnion.toml:1:1"), "{error}");
+    }
+}
+
+/// The settings and the machine may declare as many obstacles together as one of them alone.
+#[test]
+fn obstacles_of_settings_and_machine_are_counted_together() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let main = folder.path().join("main.nc");
+    write(folder.path(), "main.nc", "M30\n");
+    let boxes = |count: usize| "[[obstacle]]\nbox = [[0, 0, 0], [1, 1, 1]]\n".repeat(count);
+    let own = trunnion_machine::builtin_source("mill-3axis").expect("built in");
+    write(folder.path(), "own.toml", &format!("{own}\n{}", boxes(600)));
+    let settle = |count: usize| {
+        let text = format!("machine = \"own.toml\"\n{}", boxes(count));
+        write(folder.path(), "trunnion.toml", &text);
+        resolve(Some(&main), b"M30\n", &Overrides::default())
+    };
+    let machine = settle(400).expect("resolved").machine.expect("named");
+    assert_eq!(machine.obstacles.0.len(), 1000);
+    let Err(error) = settle(401) else { panic!("resolved") };
+    assert!(error.place.ends_with("trunnion.toml"), "{error}");
+    assert!(
+        error.message.contains("declare 1001 obstacles, and 1000 are the most"),
+        "{error}"
+    );
+    let Err(error) = settle(1001) else { panic!("resolved") };
+    assert!(
+        error.message.starts_with("more than 1000 obstacles are declared"),
+        "{error}"
+    );
+}

@@ -121,7 +121,9 @@ fn past_obstacles(arrival: &facts::Arrival<'_>) -> Option<f64> {
     let keep = machine.tolerances.clearance_mm();
     let space = Space::new(machine, &rapids.from, end.tool_length, &body, keep).ok()?;
     let ends = (space.tip(machine, &rapids.from), space.tip(machine, &end.joints));
-    let (points, _) = space.way((&ends.0, &ends.1), Vec3::norm, |_| true).ok()?;
+    let (points, _) = space
+        .way((&ends.0, &ends.1), f64::NEG_INFINITY, Vec3::norm, |_| true)
+        .ok()?;
     Some(points.windows(2).map(|pair| (pair[1] - pair[0]).xy().norm()).sum())
 }
 

@@ -9,6 +9,8 @@ mod cubic;
 mod divide;
 mod edited;
 mod excursion;
+#[cfg(test)]
+mod feed_tests;
 mod fewest;
 mod gains;
 mod known;

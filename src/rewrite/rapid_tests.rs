@@ -143,5 +143,5 @@ fn a_run_that_block_delete_changes_is_refused_with_the_reason() {
     let slash = "G0 X0. Y0.\nG43 H1 Z10.\nG1 X10. F500.\n/G0 Z200.\nG0 X90.\n/G0 Z10.\nG1 X95. F500.\nG0 Z200.\nM30\n";
     let (_, attempt) = reroute(slash, &machine("mill-3axis", vec![wall]));
     let why = attempt.outcome().expect_err("refused");
-    assert!(why.contains("block delete") && why.contains("skipped"), "{why}");
+    assert!(why.contains("block_delete") && why.contains("skipped"), "{why}");
 }

@@ -31,7 +31,7 @@
 //! Heuristic: a detour around a clamp is not wasted, and only declared obstacles (`[[obstacle]]`) are known. The rule judges
 //! consecutive rapid motions between two feed motions with one tool. It compares the travel of the linear axes across the tool (a
 //! retract along the tool is not counted) and the turn of each rotary axis with the direct distance between the
-//! same ends; where obstacles are declared and no rotary axis turns, with the shortest path past them, the one that `reroute-rapid` takes. A direct distance below 0.1 mm or 0.1 deg counts as 0.1 mm or 0.1 deg; a detour below 10 mm or 10 deg is not
+//! same ends; where obstacles are declared and no rotary axis turns, with the shortest path past them (`reroute-rapid` takes it where it is not below the level of the rapids). A direct distance below 0.1 mm or 0.1 deg counts as 0.1 mm or 0.1 deg; a detour below 10 mm or 10 deg is not
 //! reported.
 //!
 //! # Thresholds

@@ -39,8 +39,8 @@
 //!
 //! # Claim
 //! Everything but rapid motions is the same, each run of them begins and ends where it did, and every changed motion keeps the tool away
-//! from every declared obstacle by the clearance. A new motion is nowhere below the level of the old run, or runs straight along the tool above its start or end, where
-//! the tool was before; only these two may touch the part. `certify` measures that again, without a search. Where the machine file does not say that the axes
+//! from every declared obstacle by the clearance. A motion that the old run does not have is nowhere below its level, or runs straight along the tool above the start or
+//! the end of what differs; only the latter may touch the part. `certify` measures that again, without a search. Where the machine file does not say that the axes
 //! arrive together in a rapid (`[control] rapid = "synchronous"`), everything between the ends of a motion is kept clear.
 //!
 //! # Traps

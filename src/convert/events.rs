@@ -164,7 +164,7 @@ impl EventCollector<'_> {
         self.own(asked, (name, name), Why::PathControl, options)
     }
 
-    /// Whether a mode of path control is written in plain words, and the target is the same control with the same unit.
+    /// Whether tolerances of path control are written in plain words, and the target is the same control with the same unit.
     fn has_same(&self, own: &Own, ran: &Ran, options: &Options) -> bool {
         let plain = |word: &str| word.get(1..).is_some_and(|number| number.parse::<f64>().is_ok());
         let dropped = options.drop.iter().any(|drop| drop.eq_ignore_ascii_case(&own.name));
@@ -172,7 +172,9 @@ impl EventCollector<'_> {
             && !dropped
             && self.post.is_some_and(|post| post.dialect == self.dialect)
             && ran.unit_mm == options.units.mm()
-            && own.text.starts_with(['G', 'M'])
+            // alone it may hold for its block only
+            && own.text.starts_with('G')
+            && own.text.contains(' ')
             && own.text.split(' ').all(plain)
     }
 

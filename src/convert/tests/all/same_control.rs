@@ -103,7 +103,7 @@ fn a_value_at_a_limit_is_rounded_to_the_inside() {
         ..Options::default()
     };
     let made = text(convert(&source, &target, &inch));
-    has(&made, &["X19.68503 F19.68504", "X-19.68503", "X3.93701", "X19.68503"]);
+    has(&made, &["X19.68503 F19.685", "X-19.68503", "X3.93701", "X19.68503"]);
 }
 
 /// AUXFUN is the M code of that number.

@@ -10,7 +10,7 @@ const HEAD: &str = "O1\nG21 G90 G94 G17 G54 G40 G49 G80\nT1 M6\nS1000 M3\n";
 
 /// A box between two corners.
 fn block(name: &str, kind: ObstacleKind, [x, y, z]: [[f64; 2]; 3]) -> Obstacle {
-    let corners = [[x[0], y[0]], [x[1], y[0]], [x[1], y[1]], [x[0], y[1]]].map(|corner| Point::from(corner));
+    let corners = [[x[0], y[0]], [x[1], y[0]], [x[1], y[1]], [x[0], y[1]]].map(Point::from);
     Obstacle {
         name: name.to_owned(),
         axis: None,

@@ -14,7 +14,7 @@ const CLEAR: Claim = Claim::ClearRapids {
 
 /// A box between two corners.
 fn block(kind: ObstacleKind, [x, y, z]: [[f64; 2]; 3]) -> Obstacle {
-    let corners = [[x[0], y[0]], [x[1], y[0]], [x[1], y[1]], [x[0], y[1]]].map(|corner| Point::from(corner));
+    let corners = [[x[0], y[0]], [x[1], y[0]], [x[1], y[1]], [x[0], y[1]]].map(Point::from);
     Obstacle {
         name: "box".to_owned(),
         axis: None,

@@ -38,8 +38,6 @@ mod spline_words;
 mod style;
 mod survey;
 mod taut_string;
-#[cfg(test)]
-mod tmp_r;
 mod unwrap;
 mod whole_circle;
 mod whole_feed;

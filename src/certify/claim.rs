@@ -55,10 +55,10 @@ pub enum Claim {
         labels: Vec<Option<u64>>,
     },
     /// The programs do the same but for rapid motions (`reroute-rapid`): each run of rapid motions with nothing between them begins and ends where it did
-    /// within the tolerances, and everything else is as in [`Self::SameToolPath`]. In each run that differs no rotary axis turns, the tool goes no
-    /// lower along its axis than it did before, and every motion of the program after keeps the tool, with its holder where one is declared, at least
-    /// `clearance_mm` away from all declared obstacles: exactly, not by samples, and where the axes of a rapid may not arrive together, on all
-    /// paths that they may take.
+    /// within the tolerances, and everything else is as in [`Self::SameToolPath`]. In each run that differs no rotary axis turns. A motion of the
+    /// program after is one of the program before, or runs along the tool above the start or the end of what differs, or lies nowhere below the highest level at which
+    /// the rapids since the last cut went across the tool before. Every motion keeps the tool, with its holder where one is declared, at least `clearance_mm` away from all declared obstacles, those of the third kind
+    /// also from the part: exactly, not by samples, and where the axes of a rapid may not arrive together, on all paths that they may take.
     ClearRapids {
         /// mm.
         tolerance_mm: f64,

@@ -2,12 +2,12 @@
 use crate::certificate::{MotionCounts, PostureCosts, RapidChanges, RotaryChange, Worst, WorstChanges};
 use crate::chosen::Chosen;
 use crate::compare::{Compared, Pair, Place, forward_residual, process_differs};
-use crate::rapids::{ChangedRun, same_rapid};
+use crate::rapids::{ChangedRun, Differing, level_on, level_past, same_rapid};
 use crate::retracts::{self, Excursion};
 use crate::{Claim, Outcome};
 use trunnion_dialect::RotaryFeed;
 use trunnion_geometry::deg;
-use trunnion_machine::{Leg, Machine};
+use trunnion_machine::{Leg, Machine, TravelLevel};
 use trunnion_same::{Difference, Judge, Refitted, Step, Verdict};
 use trunnion_syntax::{BlockId, LineIndex, Program};
 
@@ -29,6 +29,8 @@ pub(crate) struct Proof<'a> {
     begun: Option<crate::pieces::Begun>,
     /// Runs of rapids that differ.
     pub(crate) rapids: Option<RapidChanges>,
+    /// How high the rapids of the program before have gone across the tool since the last cut.
+    level: Option<TravelLevel>,
     /// Where the tool is, where it may leave the part.
     excursion: Excursion,
     /// What ended the proof, where that was a pair of motions.
@@ -37,6 +39,7 @@ pub(crate) struct Proof<'a> {
 
 impl Judge for Proof<'_> {
     fn pair(&mut self, before: &Step, after: &Step) -> Result<(), Verdict> {
+        self.level = level_past(self.level, self.machine, before);
         self.add(before, after)
             .map_err(|outcome| self.fail(outcome, before, after))
     }
@@ -45,17 +48,15 @@ impl Judge for Proof<'_> {
         if before.len() == after.len() && before.iter().zip(after).all(|(was, is)| same_rapid(was, is)) {
             return before.iter().zip(after).try_for_each(|(was, is)| self.pair(was, is));
         }
-        // what both do alike before and after the part that differs need not be known: a first positioning begins anywhere
-        let most = before.len().min(after.len()) - 1;
-        let alike = |pair: &(&Step, &Step)| same_rapid(pair.0, pair.1);
-        let head = before.iter().zip(after).take(most).take_while(alike).count();
-        let ends = before.iter().rev().zip(after.iter().rev());
-        let tail = ends.take(most - head).take_while(alike).count();
-        let (old, new) = (before.len() - tail, after.len() - tail);
+        let Differing { head, old, new } = Differing::of(before, after);
         let mut leading = before.iter().zip(after).take(head);
         leading.try_for_each(|(was, is)| self.pair(was, is))?;
         let (was, is) = (&before[head..old], &after[head..new]);
-        self.changed_rapids(was, is)
+        self.level = was
+            .iter()
+            .fold(self.level, |level, step| level_past(level, self.machine, step));
+        let level = level_on(self.level, self.machine, &before[old..]);
+        self.changed_rapids(was, is, level)
             .map_err(|outcome| self.fail(outcome, &was[0], &is[0]))?;
         before[old..]
             .iter()
@@ -156,6 +157,7 @@ impl<'a> Proof<'a> {
             chosen: matches!(claim, Claim::LeastPostures { .. }).then(|| Chosen::new(machine)),
             begun: None,
             rapids: None,
+            level: None,
             excursion: Excursion::InCut(None),
             failed: None,
         }
@@ -226,7 +228,7 @@ impl<'a> Proof<'a> {
     }
 
     /// A run of rapids that differs.
-    fn changed_rapids(&mut self, before: &[Step], after: &[Step]) -> Result<(), Outcome> {
+    fn changed_rapids(&mut self, before: &[Step], after: &[Step], level: Option<TravelLevel>) -> Result<(), Outcome> {
         let lines: Vec<u32> = after.iter().map(|step| self.line(step.motion.block)).collect();
         let mut total = self.rapids.unwrap_or_default();
         let run = ChangedRun {
@@ -237,6 +239,7 @@ impl<'a> Proof<'a> {
                 line: lines[0],
             },
             lines: &lines,
+            level,
         };
         let residuals = run.judge(before, after, &mut total)?;
         self.rapids = Some(total);

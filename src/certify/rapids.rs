@@ -1,12 +1,13 @@
-//! A run of rapid motions that differs between two programs: same ends, no lower, and clear of all obstacles. Nothing is searched here: each motion
-//! of the program after is measured against each obstacle.
+//! A run of rapid motions that differs between two programs: same ends, nowhere below the level at which the old run went across the tool but where that
+//! one was itself, and clear of all obstacles. Nothing is searched here: each motion of the program after is measured against each obstacle.
 use crate::certificate::RapidChanges;
 use crate::clear::{Clearance, is_declared};
 use crate::compare::{Place, above, at_block_of, forward_residual};
 use crate::{Claim, Outcome};
 use trunnion_geometry::deg;
 use trunnion_geometry::math::angle_between;
-use trunnion_machine::{Machine, Stance, forward};
+use trunnion_interp::MotionKind;
+use trunnion_machine::{Across, Machine, Stance, TravelLevel};
 use trunnion_same::Step;
 
 /// Rotary joints that differ by no more stand still, rad.
@@ -20,6 +21,53 @@ pub(crate) struct ChangedRun<'a> {
     pub(crate) first: Place,
     /// Line of each motion of the program after.
     pub(crate) lines: &'a [u32],
+    /// The highest level at which the program before goes across the tool there.
+    pub(crate) level: Option<TravelLevel>,
+}
+
+/// Where two runs differ, by index: motions that both make alike at the beginning, and the ends of what differs.
+pub(crate) struct Differing {
+    pub(crate) head: usize,
+    pub(crate) old: usize,
+    pub(crate) new: usize,
+}
+
+impl Differing {
+    /// What both do alike before and after the part that differs need not be known: a first positioning begins anywhere.
+    pub(crate) fn of(before: &[Step], after: &[Step]) -> Self {
+        let most = before.len().min(after.len()) - 1;
+        let alike = |pair: &(&Step, &Step)| same_rapid(pair.0, pair.1);
+        let head = before.iter().zip(after).take(most).take_while(alike).count();
+        let ends = before.iter().rev().zip(after.iter().rev());
+        let tail = ends.take(most - head).take_while(alike).count();
+        Self {
+            head,
+            old: before.len() - tail,
+            new: after.len() - tail,
+        }
+    }
+}
+
+/// The level of rapids after one more motion: a cut begins anew.
+pub(crate) fn level_past(known: Option<TravelLevel>, machine: &Machine, step: &Step) -> Option<TravelLevel> {
+    match step.motion.kind {
+        MotionKind::Rapid => step
+            .leg
+            .as_ref()
+            .map_or(known, |leg| TravelLevel::extended(known, machine, leg)),
+        MotionKind::Dwell(_) => known,
+        _ => None,
+    }
+}
+
+/// The same with the rapids that follow, as long as the tool stays the same.
+pub(crate) fn level_on(known: Option<TravelLevel>, machine: &Machine, rest: &[Step]) -> Option<TravelLevel> {
+    let same = |step: &&Step| {
+        let end = step.leg.as_ref().and_then(|leg| leg.end.as_ref().ok());
+        end.is_some_and(|end| known.is_some_and(|level| level.is_of(end)))
+    };
+    let rest = rest.iter().take_while(same);
+    rest.fold(known, |level, step| level_past(level, machine, step))
 }
 
 /// Whether a rapid is the same in both programs.
@@ -49,14 +97,14 @@ impl ChangedRun<'_> {
         }
         let (old, new) = (self.stances(before, "original")?, self.stances(after, "changed")?);
         self.same_ends(&old, &new)?;
-        self.no_lower(&old, &new)?;
+        let follows = self.where_it_was(&old, after)?;
         total.runs += 1;
         total.motions_before += before.len() as u64;
         total.motions_after += after.len() as u64;
         total.length_before_mm += length(&old);
         total.length_after_mm += length(&new);
         let mut residuals = Vec::new();
-        for (step, line) in after.iter().zip(self.lines) {
+        for ((step, line), follows) in after.iter().zip(self.lines).zip(follows) {
             let leg = step.leg.as_ref().ok_or_else(|| self.unknown("no machine is named"))?;
             let at = Place {
                 line: *line,
@@ -69,7 +117,10 @@ impl ChangedRun<'_> {
                 line: *line,
                 keep: clearance_mm,
             };
-            let least = clearance.clear(step, leg, |obstacle| !self.machine.obstacles[obstacle].is_part())?;
+            // on the old way it is in the part as it was before
+            let least = clearance.clear(step, leg, |obstacle| {
+                !follows || !self.machine.obstacles[obstacle].is_part()
+            })?;
             if least.is_finite() && total.least_distance_mm.is_none_or(|known| least < known) {
                 (total.least_distance_mm, total.line) = (Some(least), *line);
             }
@@ -148,24 +199,48 @@ impl ChangedRun<'_> {
         Ok(())
     }
 
-    /// The tool is never lower along its axis than before: what is below is not declared.
-    fn no_lower(&self, old: &[&Stance], new: &[&Stance]) -> Result<(), Outcome> {
+    /// Which motions of the program after are where the tool was before: an old motion, or straight along the tool above the start or the end. All others
+    /// run no lower than the highest level at which the old rapids went across the tool: below that nothing is declared but the obstacles.
+    fn where_it_was(&self, old: &[&Stance], after: &[Step]) -> Result<Vec<bool>, Outcome> {
+        let tolerance = self.claim.tolerances().0;
         // with one tool, whatever was active before the first motion
         let length = old[old.len() - 1].tool_length;
-        let lowest = |stances: &[&Stance]| {
-            let heights = stances
-                .iter()
-                .map(|stance| stance.axis.dot(&forward(self.machine, &stance.joints, length).tip));
-            heights.fold(f64::INFINITY, f64::min)
-        };
-        let deeper = lowest(old) - lowest(new);
-        if above(deeper, self.claim.tolerances().0) {
-            return self.refute(
-                self.first.line,
-                format!("the rapid motions go {deeper:.6} mm lower along the tool than before, where only declared obstacles are known"),
-            );
+        let near = |a: &Stance, b: &Stance| !above(a.tip_distance_to(b), tolerance);
+        let level = self.level.and_then(|level| level.height());
+        let mut follows = Vec::new();
+        for (index, (step, line)) in after.iter().zip(self.lines).enumerate() {
+            let leg = step.leg.as_ref().ok_or_else(|| self.unknown("no machine is named"))?;
+            let (Some(across), Some(start), Ok(end)) = (Across::of(self.machine, leg, length), &leg.start, &leg.end)
+            else {
+                return Err(self.unknown("it is not known how high the rapid motions are"));
+            };
+            let from_end = (index + old.len() - 1).checked_sub(after.len());
+            let is_old = [Some(index), from_end].into_iter().flatten().any(|at| {
+                let pair = old.get(at).zip(old.get(at + 1));
+                pair.is_some_and(|(from, to)| near(from, start) && near(to, end))
+            });
+            let lower = if across.heights[0] <= across.heights[1] {
+                start
+            } else {
+                end
+            };
+            let is_upright = || !across.sideways && [old[0], old[old.len() - 1]].iter().any(|place| near(place, lower));
+            let follow = is_old || is_upright();
+            follows.push(follow);
+            let deeper = level.map_or(f64::INFINITY, |level| level - across.lowest);
+            if !follow && above(deeper, tolerance) {
+                let by = if deeper.is_finite() {
+                    format!("{deeper:.6} mm below the level at which the rapids were before")
+                } else {
+                    "where no rapid did before".to_owned()
+                };
+                return self.refute(
+                    *line,
+                    format!("the rapid motion goes across the tool {by}, and only declared obstacles are known there"),
+                );
+            }
         }
-        Ok(())
+        Ok(follows)
     }
 }
 

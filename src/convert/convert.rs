@@ -55,6 +55,9 @@ pub struct Converted {
     pub told: Told,
 }
 
+/// So often coordinates that rounding takes beyond a limit are moved inside.
+const MOST_TRIES: u32 = 4;
+
 /// Converts a program and proves it.
 ///
 /// # Errors
@@ -100,20 +103,11 @@ pub fn convert(source: &Source<'_>, target: &Target<'_>, options: &Options) -> R
         kept: OnceCell::new(),
     };
     setting.head_lengths(&reading, &job)?;
-    let (outs, swaps) = planner.plan(&job)?;
-    let places = (&*outs, &*left_behind(&reading, &run));
-    let made = setting.write(&reading, &job, places, source.setup, options)?;
-    let Written {
-        text: written, moved, ..
-    } = made;
+    let (mut outs, swaps) = planner.plan(&job)?;
+    let stays = left_behind(&reading, &run);
     let claim = setting.claim(options, tolerance_mm, axis_deg);
-    let (proof, turned, travel, told) = prove(
-        (&reading, &run),
-        &setting,
-        (&written, &moved),
-        &outs,
-        (&claim, &options.drop),
-    )?;
+    let (written, (proof, turned, travel, told)) =
+        written((&reading, &run), &setting, (&job, &mut outs, &stays), options, &claim)?;
     swaps_are_allowed(&turned, &reading, &setting, options)?;
     let swaps = if turned.is_empty() { swaps } else { turned };
     let lines = LineIndex::new(reading.program.source());
@@ -277,13 +271,37 @@ pub(crate) fn wording(program: &Program, fault: &Fault) -> String {
     }
 }
 
+/// The text and its proof. Where only rounding takes a coordinate beyond a limit of the machine, it is rounded to the other side.
+fn written(
+    (reading, source): (&Reading, &Run<'_>),
+    setting: &Setting<'_>,
+    (job, outs, stays): (&Job, &mut [Out], &[u16]),
+    options: &Options,
+    claim: &ConversionClaim,
+) -> Result<(String, Found), Refused> {
+    let step = setting.length_step(options);
+    let mut tries = 0;
+    loop {
+        let Written { text, moved, .. } = setting.write(reading, job, (outs, stays), source.setup, options)?;
+        let terms = (claim, &*options.drop);
+        let found = prove((reading, source), setting, (&text, &moved), outs, terms)?;
+        tries += 1;
+        if tries == MOST_TRIES || !found.2.draw_in(outs, setting.machine, step) {
+            return Ok((text, found));
+        }
+    }
+}
+
+/// A proof, the motions that change the posture, where axes leave their travel, and what the certificate tells.
+type Found = (ConversionProof, Vec<usize>, Travel, Told);
+
 fn prove(
     (reading, source): (&Reading, &Run<'_>),
     setting: &Setting<'_>,
     (text, moved): (&str, &[u32]),
     outs: &[Out],
     (claim, dropped): (&ConversionClaim, &[String]),
-) -> Result<(ConversionProof, Vec<usize>, Travel, Told), Refused> {
+) -> Result<Found, Refused> {
     // vectors say by themselves where the tool points
     let machine = setting.mode.machine().or(setting.machine.filter(|_| setting.vectors));
     let mut setup = source.setup.clone();

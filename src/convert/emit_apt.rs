@@ -201,6 +201,7 @@ fn plain_record(event: &Event) -> Option<String> {
         // only COOLNT/OFF exists
         Event::Coolant(Coolant::ThruOff)
         | Event::Path(_)
+        | Event::Own(_)
         | Event::Tool(_)
         | Event::SpindleOn(..)
         | Event::Speed(_)

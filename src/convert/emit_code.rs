@@ -36,6 +36,8 @@ pub(crate) struct Writer<'a> {
     pub(crate) ready: bool,
     /// A length was activated, and not cancelled since.
     pub(crate) length_set: bool,
+    /// The code of the tool's length, before the first block that moves along the tool.
+    pub(crate) length_waits: Option<String>,
     pub(crate) tool: Option<u32>,
     /// Coolant other than through the spindle is on.
     pub(crate) coolant_outside: bool,
@@ -83,6 +85,7 @@ impl<'a> Writer<'a> {
             moved: Vec::new(),
             ready: false,
             length_set: false,
+            length_waits: None,
             tool: None,
             coolant_outside: false,
             off_plane: false,
@@ -249,26 +252,6 @@ impl<'a> Writer<'a> {
         Ok(())
     }
 
-    /// If tool centre point control is on from the start, it is switched off: until a tool is in the spindle, or for the whole program.
-    fn joints_at_start(&mut self) -> Result<(), Refused> {
-        let Some(machine) = self.mode.machine() else {
-            return Ok(());
-        };
-        let codes = machine.control.tcp_codes.as_ref().filter(|codes| codes.at_start);
-        match codes.map(|codes| codes.off.first()) {
-            Some(Some(off)) => self.line(off),
-            Some(None) if matches!(self.mode, Mode::Joints(_)) => {
-                let message = format!(
-                    "{} starts programs with tool centre point control on, and its file names no code that switches it off: remove --no-tcp",
-                    machine.id
-                );
-                return Err(self.refuse(None, message));
-            }
-            _ => {}
-        }
-        Ok(())
-    }
-
     fn work_offset(&mut self, name: &str, block: Option<BlockId>) -> Result<(), Refused> {
         self.template("work-offset", block, |key| {
             (key == "work_offset").then(|| name.to_owned())
@@ -324,6 +307,10 @@ impl<'a> Writer<'a> {
             Event::SpindleOff => self.template("spindle-stop", block, |_| None),
             Event::Coolant(coolant) => self.coolant(*coolant, block),
             Event::Path(mode) => self.template(crate::events::path_key(*mode), block, |_| None),
+            Event::Own(text) => {
+                self.line(text);
+                Ok(())
+            }
             Event::Stop(optional) => {
                 let key = if *optional { "optional-stop" } else { "stop" };
                 self.template(key, block, |_| None)

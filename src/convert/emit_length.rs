@@ -1,6 +1,7 @@
 //! Tool centre point control and the tool's length, switched where the motions of the original program need them.
 use crate::emit_code::Writer;
 use crate::plan::Mode;
+use crate::template::fill;
 use crate::{OrientationWords, Refused};
 use trunnion_interp::LengthOf;
 use trunnion_syntax::{BlockId, Format};
@@ -27,6 +28,26 @@ impl Writer<'_> {
         Ok(stays)
     }
 
+    /// If tool centre point control is on from the start, it is switched off: until a tool is in the spindle, or for the whole program.
+    pub(crate) fn joints_at_start(&mut self) -> Result<(), Refused> {
+        let Some(machine) = self.mode.machine() else {
+            return Ok(());
+        };
+        let codes = machine.control.tcp_codes.as_ref().filter(|codes| codes.at_start);
+        match codes.map(|codes| codes.off.first()) {
+            Some(Some(off)) => self.line(off),
+            Some(None) if matches!(self.mode, Mode::Joints(_)) => {
+                let message = format!(
+                    "{} starts programs with tool centre point control on, and its file names no code that switches it off: remove --no-tcp",
+                    machine.id
+                );
+                return Err(self.refuse(None, message));
+            }
+            _ => {}
+        }
+        Ok(())
+    }
+
     /// Tool centre point control on, or the tool's length.
     pub(crate) fn get_ready(&mut self, block: BlockId) -> Result<(), Refused> {
         if self.ready {
@@ -44,15 +65,31 @@ impl Writer<'_> {
         // a length is compensated where there is a tool; without one the words are those of the spindle's nose
         if key != "length-on" || tool.is_some() && self.post.template(key).is_some() {
             let code = self.post.tcp_code(self.mode.machine(), true);
-            self.template(key, Some(block), |name| match name {
+            let value = |name: &str| match name {
                 "tool" => tool.clone(),
                 "tcp_on" => code.clone(),
                 _ => None,
-            })?;
+            };
+            let template = self.post.template(key).unwrap_or_default();
+            let one_code = key == "length-on" && !template.trim().is_empty() && !template.trim().contains('\n');
+            match fill(template, value).ok().filter(|_| one_code) {
+                Some(length) => self.length_waits = Some(length.trim().to_owned()),
+                None => self.template(key, Some(block), value)?,
+            }
         }
         self.forget_coordinates();
         self.modal.forget("motion");
         Ok(())
+    }
+
+    /// Writes the length that waits into a block that moves along the tool, at this place among its words. In a block of its own, or with other axes, it would be
+    /// the setting of the control whether the tool travels its length there.
+    pub(crate) fn join_length(&mut self, words: &mut Vec<String>, at: usize) {
+        if words[at..].iter().any(|word| word.starts_with('Z'))
+            && let Some(length) = self.length_waits.take()
+        {
+            words.insert(at, length);
+        }
     }
 
     /// Whether a motion comes before the tool's length is active, and that length is not declared: then X Y Z are written as they are, since what the
@@ -92,6 +129,7 @@ impl Writer<'_> {
 
     /// No length, for motions that the original program makes without one.
     pub(crate) fn length_off(&mut self, block: BlockId) -> Result<(), Refused> {
+        self.length_waits = None;
         if std::mem::take(&mut self.length_set) && self.post.template("length-off").is_some() {
             self.template("length-off", Some(block), |_| None)?;
             self.forget_coordinates();
@@ -100,6 +138,7 @@ impl Writer<'_> {
     }
 
     pub(crate) fn not_ready(&mut self) -> Result<(), Refused> {
+        self.length_waits = None;
         if std::mem::take(&mut self.ready) && self.guides_tip() {
             let code = self.post.tcp_code(self.mode.machine(), false);
             self.template("tcp-off", None, |name| code.clone().filter(|_| name == "tcp_off"))?;

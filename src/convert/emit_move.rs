@@ -45,7 +45,7 @@ impl Writer<'_> {
         }
         let code = if self.klartext { "L" } else { "G0" };
         let mut words: Vec<String> = self.modal.change("motion", code.to_owned()).into_iter().collect();
-        let mut turns = 0;
+        let (first, mut turns) = (words.len(), 0);
         for (axis, value) in known {
             if self.stays & 1 << axis != 0 {
                 continue;
@@ -62,6 +62,7 @@ impl Writer<'_> {
             self.modal.forget("motion");
             words.push("FMAX".to_owned());
         }
+        self.join_length(&mut words, first);
         self.clamp(Step::Motion { turns, cuts: false }, block)?;
         self.line(&words.join(" "));
         self.moved.push(self.lines);
@@ -111,6 +112,11 @@ impl Writer<'_> {
         }
         if let Some((arc, axis)) = arc.zip(axis) {
             self.arc_words(&arc, axis, &mut words);
+        } else {
+            self.join_length(&mut words, before);
+        }
+        if let Some(length) = self.length_waits.take() {
+            self.line(&length);
         }
         self.feed(one, &mut words);
         let cuts = one.shape != Shape::Rapid;

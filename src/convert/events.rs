@@ -3,7 +3,7 @@ use crate::comments::{LONGEST_COMMENT, comment, pieces};
 use crate::events_spindle::Spindle;
 use crate::job::{Coolant, Event, Job, Placed};
 use crate::{Options, Post, Refused};
-use trunnion_certify::conversion::{Ask, Asked, Ran, Reading, Why, ZeroNames};
+use trunnion_certify::conversion::{Ask, Asked, Own, Ran, Reading, Why, ZeroNames};
 use trunnion_dialect::{Action, Dialect, PathMode};
 use trunnion_interp::{AllClampCodes, Tool};
 use trunnion_syntax::{Address, Block, BlockId, Format, Item, Program, TextRange, Value, Word};
@@ -39,6 +39,7 @@ pub(crate) fn job(
     }
     let mut teller = EventCollector {
         program,
+        dialect: &reading.dialect,
         post,
         job: Job {
             name: options.program_name.clone(),
@@ -67,7 +68,7 @@ pub(crate) fn job(
             .count();
         let asks = &reading.asks[next..next + count];
         next += count;
-        let asked = teller.asked(asks, options, clamps.is_some())?;
+        let asked = teller.asked(reading, asks, options, clamps.is_some())?;
         teller.block(reading, ran, said, asked, motions)?;
         motions = ran.motions;
     }
@@ -87,6 +88,7 @@ pub(crate) fn job(
 
 pub(crate) struct EventCollector<'p> {
     pub(crate) program: &'p Program,
+    dialect: &'p str,
     post: Option<&'p Post>,
     pub(crate) job: Job,
     pub(crate) spindle: Spindle,
@@ -106,6 +108,7 @@ impl EventCollector<'_> {
     /// left out where the user wants it.
     fn asked(
         &mut self,
+        reading: &Reading,
         asks: &[Asked],
         options: &Options,
         own_clamps: bool,
@@ -130,6 +133,9 @@ impl EventCollector<'_> {
                 Ask::Clamp(name) => self.own(asked, (name, name), Why::Machine, options)?,
                 Ask::Idle(name) if WRITTEN.contains(&name.as_str()) => {}
                 Ask::Idle(name) => self.job.leave_out(name, asked.block),
+                Ask::Own(own) if self.has_same(own, &reading.blocks[asked.ran], options) => {
+                    before.push(Event::Own(own.text.clone()));
+                }
                 Ask::Own(own) => self.own(asked, (&own.name, &own.text), own.why, options)?,
             }
         }
@@ -156,6 +162,20 @@ impl EventCollector<'_> {
             return Ok(());
         }
         self.own(asked, (name, name), Why::PathControl, options)
+    }
+
+    /// Whether tolerances of path control are written in plain words, and the target is the same control with the same unit.
+    fn has_same(&self, own: &Own, ran: &Ran, options: &Options) -> bool {
+        let plain = |word: &str| word.get(1..).is_some_and(|number| number.parse::<f64>().is_ok());
+        let dropped = options.drop.iter().any(|drop| drop.eq_ignore_ascii_case(&own.name));
+        own.why == Why::PathControl
+            && !dropped
+            && self.post.is_some_and(|post| post.dialect == self.dialect)
+            && ran.unit_mm == options.units.mm()
+            // alone it may hold for its block only
+            && own.text.starts_with('G')
+            && own.text.contains(' ')
+            && own.text.split(' ').all(plain)
     }
 
     fn own(&mut self, asked: &Asked, (name, text): (&str, &str), why: Why, options: &Options) -> Result<(), Refused> {

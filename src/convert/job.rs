@@ -23,6 +23,8 @@ pub(crate) enum Event {
     Coolant(Coolant),
     /// What the control does at the end of each block from here on.
     Path(PathMode),
+    /// Codes of the control for which the original was written, for the same control.
+    Own(String),
     /// The program waits for the operator; optional: only where the switch is set.
     Stop(bool),
     /// An M code without meaning to the control itself (APT AUXFUN).

@@ -204,7 +204,14 @@ impl<'a> Setting<'a> {
         write(Clamping::planned(&codes, &written.clamping))
     }
 
-    /// The precision of the digits of the output.
+    /// One unit of the last digit of lengths in the output, mm; 0 for CL data.
+    pub(crate) fn length_step(&self, options: &Options) -> f64 {
+        let inch = usize::from(options.units == crate::Units::Inch);
+        self.post.map_or(0.0, |post| {
+            options.units.mm() / 10f64.powi(i32::try_from(post.length[inch]).unwrap_or(i32::MAX))
+        })
+    }
+
     /// How far the tip (mm) and the tool axis (deg) may be from where they were inside a cut. `None`: CL data, which say nothing of the axis between
     /// their points, or tool vectors, which the control interpolates.
     pub(crate) fn tolerances(

@@ -1,11 +1,18 @@
 //! Whether the output program stays inside the travel of its machine, and keeps axes still that must not move while cutting.
 use crate::Refused;
 use crate::job::{Event, Job};
+use crate::plan::Out;
 use trunnion_certify::conversion::{Part, Reading};
 use trunnion_geometry::deg;
 use trunnion_interp::Setup;
 use trunnion_machine::{AxisKind, Excess, Leg, Machine, NO_TURN, limit_excess, rotary_turns};
 use trunnion_syntax::BlockId;
+
+/// Coordinates that differ by less are the same, mm.
+const SAME_MM: f64 = 1e-7;
+
+/// A coordinate is a number of the output within this part of its last digit.
+const ON_GRID: f64 = 1e-6;
 
 /// An axis that would leave its travel.
 #[derive(Clone, Debug, PartialEq)]
@@ -38,8 +45,8 @@ impl core::fmt::Display for Beyond {
 /// What leaves the travel, and where that is unknown: motions of the original program.
 #[derive(Default)]
 pub(crate) struct Travel {
-    /// Each limit once, where it is broken first, with the worst value.
-    beyond: Vec<(usize, Excess)>,
+    /// Each limit once: where it is broken first, the worst value, and where that is.
+    beyond: Vec<(usize, Excess, usize)>,
     undecided: Vec<usize>,
     /// The first cut that turns an axis which must stand still while cutting: the motion, letter of the axis, by how much, rad; `None`:
     /// whether it does is not known.
@@ -96,12 +103,47 @@ fn held_axis_turns(machine: &Machine, leg: &Leg) -> Option<(char, Option<f64>)> 
 impl Travel {
     fn add(&mut self, was: usize, excess: Excess) {
         let off = |one: &Excess| (one.value - one.limit).abs();
-        let same = |known: &&mut (usize, Excess)| known.1.axis == excess.axis && known.1.limit == excess.limit;
+        let same = |known: &&mut (usize, Excess, usize)| known.1.axis == excess.axis && known.1.limit == excess.limit;
         match self.beyond.iter_mut().find(same) {
             Some(known) if off(&known.1) >= off(&excess) => {}
-            Some(known) => known.1 = excess,
-            None => self.beyond.push((was, excess)),
+            Some(known) => (known.1, known.2) = (excess, was),
+            None => self.beyond.push((was, excess, was)),
         }
+    }
+
+    /// Moves coordinates that only their rounding to the digits of the output (`step` mm) takes beyond a limit to the next value on the other side; whether there
+    /// were any.
+    pub(crate) fn draw_in(&self, outs: &mut [Out], machine: Option<&Machine>, step: f64) -> bool {
+        let mut changed = false;
+        for (_, excess, worst) in &self.beyond {
+            let letter = machine
+                .and_then(|machine| machine.axes.get(excess.axis))
+                .map(|axis| axis.letter);
+            let Some(axis) = (0..3).find(|axis| letter == Some(b"XYZ"[*axis])) else {
+                continue;
+            };
+            if (excess.value - excess.limit).abs() > 0.51 * step {
+                continue;
+            }
+            let values: Vec<f64> = match outs.get(*worst) {
+                Some(Out::Moves(moves)) => moves.iter().map(|one| one.xyz[axis]).collect(),
+                _ => Vec::new(),
+            };
+            let moves = outs.iter_mut().filter_map(|out| match out {
+                Out::Moves(moves) => Some(moves),
+                _ => None,
+            });
+            for one in moves.flatten() {
+                let value = one.xyz[axis];
+                let (count, nearest) = (value / step, (value / step).round());
+                // what is on the grid was not rounded
+                if (count - nearest).abs() > ON_GRID && values.iter().any(|known| (known - value).abs() < SAME_MM) {
+                    one.xyz[axis] = step * if nearest > count { count.floor() } else { count.ceil() };
+                    changed = true;
+                }
+            }
+        }
+        changed
     }
 
     /// The findings in words and numbers, and the lines where the travel is not decided. Where the zero points are declared, a program
@@ -134,7 +176,7 @@ impl Travel {
             return Err(Refused::at(&reading.program, block(was), message));
         }
         let mut all = Vec::new();
-        for (was, excess) in &self.beyond {
+        for (was, excess, _) in &self.beyond {
             let Some(axis) = machine.and_then(|machine| machine.axes.get(excess.axis)) else {
                 continue;
             };

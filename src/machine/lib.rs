@@ -35,8 +35,8 @@ pub use kinematics::selftest::{SelfTest, self_test};
 pub use kinematics::uncertainty::{AxisUncertainty, pivot_sensitivity_between};
 pub use kinematics::windings::{Windings, pole_angle, solution_s, windings};
 pub use obstacle::{
-    Footprint, Near, Nearness, NoRoute, Obstacle, ObstacleKind, Obstacles, SLACK_MM, Space, ToolBody, column_distance,
-    corridor_distance, linear_steps, nearness, nearness_with_part, tool_in_frame,
+    Across, Footprint, Near, Nearness, NoRoute, Obstacle, ObstacleKind, Obstacles, SLACK_MM, Space, ToolBody,
+    TravelLevel, column_distance, corridor_distance, linear_steps, nearness, nearness_with_part, tool_in_frame,
 };
 pub use path::block_path::{BlockPath, Moment};
 pub use path::deviation::{Deviation, joint_line_deviation, tip_deviation};

@@ -5,12 +5,14 @@
 mod column;
 mod contact;
 mod frame;
+mod level;
 mod space;
 mod sweep;
 mod verdict;
 
 pub use column::{SLACK_MM, ToolBody, column_distance, corridor_distance};
 pub use frame::{linear_steps, tool_in_frame};
+pub use level::{Across, TravelLevel};
 pub use space::{NoRoute, Space};
 pub use verdict::{Near, Nearness, nearness, nearness_with_part};
 
@@ -108,7 +110,8 @@ pub enum ObstacleKind {
     /// A body that the tool must not touch.
     #[default]
     Body,
-    /// The part, or what it is made from: the tool cuts it. Only a tool that turns in the air must keep clear of it ([`nearness_with_part`]).
+    /// The part, or what it is made from: the tool cuts it. Only a tool that turns in the air, or goes a new way at rapid, must keep clear
+    /// of it ([`nearness_with_part`]).
     Part,
 }
 

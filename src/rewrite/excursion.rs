@@ -4,7 +4,7 @@ use crate::slots::{Scheme, Styles};
 use crate::style::NumberStyle;
 use core::f64::consts::PI;
 use trunnion_geometry::{Vec3, deg, rad};
-use trunnion_interp::{MotionKind, Tool};
+use trunnion_interp::{Feed, MotionKind, Tool};
 use trunnion_machine::{
     Joints, Leg, Limits, Machine, Nearness, Orientations, RapidPath, Stance, ToolBody, inverse, linear_steps,
     nearness_with_part, orientations, windings,
@@ -30,6 +30,9 @@ const SHARE: f64 = 0.9;
 const RAMP_MM: f64 = 1.0;
 const RAMP_SLOPE: f64 = 0.25;
 const LEAST_RAMP_MM: f64 = 0.002;
+
+/// The feed is not to drop so far that it would be an error, nor near that.
+const MARGIN: f64 = 1.25;
 
 /// A cut that turns the machine over, and the cut before it.
 pub(crate) struct Flip {
@@ -109,7 +112,13 @@ impl Planner<'_> {
             let mut height = LOWEST_MM;
             while height <= HIGHEST_MM {
                 let out = self.lifted(flip, start, self.rotary(start), height)?;
-                let turned = self.lifted(flip, &base, base_q, height)?;
+                let mut turned = self.lifted(flip, &base, base_q, height)?;
+                if kind == MotionKind::Linear {
+                    let farther = self.farther(flip, &out.stance, &turned.stance);
+                    if farther > 0.0 {
+                        turned = self.lifted(flip, &base, base_q, height + farther)?;
+                    }
+                }
                 if !self.inside(&out.stance) || !self.inside(&turned.stance) {
                     break;
                 }
@@ -135,6 +144,23 @@ impl Planner<'_> {
             "at no height along the tool axis inside the travel of the axes is it proved that the tool clears all obstacles by {} mm while the axes turn",
             self.machine.tolerances.clearance_mm()
         )))
+    }
+
+    /// How much higher than it left the part the tool is to be turned at feed, mm: the tip must move so far that F says how fast, and that the axes need not
+    /// make it much slower.
+    fn farther(&self, flip: &Flip, out: &Stance, turned: &Stance) -> f64 {
+        let Feed::PerMinute(feed) = flip.leg.motion.feed else {
+            return 0.0;
+        };
+        let axes = self.machine.axes.iter().enumerate();
+        let times = axes.filter_map(|(joint, axis)| {
+            let speed = axis.max_speed.filter(|speed| *speed > 0.0)?;
+            Some((turned.joints[joint] - out.joints[joint]).abs() / speed)
+        });
+        let needed = feed / 60.0 * times.fold(0.0, f64::max);
+        let drops = self.machine.tolerances.feed_drop_error * MARGIN;
+        let short = out.tip_distance_to(turned) < drops * needed;
+        if short { needed } else { 0.0 }
     }
 
     /// Whether a rapid out along the tool axis stays on it, whenever its axes arrive, as `certify` will judge it.

@@ -9,6 +9,8 @@ mod cubic;
 mod divide;
 mod edited;
 mod excursion;
+#[cfg(test)]
+mod feed_tests;
 mod fewest;
 mod gains;
 mod known;
@@ -24,6 +26,8 @@ mod propose;
 mod rapid_rounding;
 mod rapid_route;
 mod rapid_runs;
+#[cfg(test)]
+mod rapid_tests;
 mod reposition;
 mod rewrites;
 mod shortest_path;
@@ -36,6 +40,7 @@ mod survey;
 mod taut_string;
 mod unwrap;
 mod whole_circle;
+mod whole_feed;
 
 pub use attempt::{Attempt, Judged, Proved, State, attempt, attempt_at};
 pub use gains::{Gain, Gains, gains};

@@ -2,7 +2,7 @@
 use crate::rapid_rounding::rounded;
 use crate::rapid_runs::Rapid;
 use trunnion_geometry::Vec3;
-use trunnion_machine::{Joints, Machine, Nearness, NoRoute, Space, Stance, ToolBody, nearness};
+use trunnion_machine::{Joints, Machine, Nearness, NoRoute, Space, Stance, ToolBody, TravelLevel, forward, nearness};
 
 /// Coordinates that differ by no more are the same, mm.
 pub(crate) const SAME_MM: f64 = 1e-9;
@@ -10,6 +10,9 @@ pub(crate) const SAME_MM: f64 = 1e-9;
 /// A way is left alone if another one is cheaper by no more than this part of it, or by no more than rounding to the digits of the program may add (mm).
 const LEAST_GAIN: f64 = 1e-3;
 const LEAST_GAIN_MM: f64 = 0.01;
+
+/// A place is at a level if it is no farther below it, mm: heights are computed.
+const LEVEL_MM: f64 = 1e-7;
 
 /// What a way costs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -63,6 +66,8 @@ pub(crate) struct Grid {
 pub(crate) struct Planner<'a> {
     pub machine: &'a Machine,
     pub run: &'a [Rapid],
+    /// The highest level at which the rapids since the last cut go across the tool.
+    pub level: Option<TravelLevel>,
     pub keep: f64,
     pub measure: Measure,
 }
@@ -111,7 +116,7 @@ impl Planner<'_> {
             ));
         }
         let tool_length = stances[stances.len() - 1].tool_length;
-        let space = match Space::new(self.machine, &stances[0].joints, tool_length, &body, self.keep) {
+        let space = match Space::with_part(self.machine, &stances[0].joints, tool_length, &body, self.keep) {
             Ok(space) => space,
             Err(why) => return self.only_if_clear(&why),
         };
@@ -119,29 +124,8 @@ impl Planner<'_> {
             .iter()
             .map(|stance| space.tip(self.machine, &stance.joints))
             .collect();
-        // straight up at the beginning and straight down at the end: they leave and enter what is not declared
-        let vertical = |pair: &[Vec3]| (pair[1] - pair[0]).xy().norm() <= SAME_MM;
-        let legs: Vec<&[Vec3]> = places.windows(2).collect();
-        let leading = legs
-            .iter()
-            .take_while(|leg| vertical(leg) && leg[1].z > leg[0].z)
-            .count();
-        let trailing = legs[leading..]
-            .iter()
-            .rev()
-            .take_while(|leg| vertical(leg) && leg[1].z < leg[0].z)
-            .count();
-        let middle = leading..legs.len() - trailing;
-        for (index, leg) in legs.iter().enumerate().filter(|(index, _)| !middle.contains(index)) {
-            let line = if index < leading { "retract" } else { "approach" };
-            if let Some(which) = space.blocked_by(&leg[0], &leg[1]) {
-                return Err(format!(
-                    "the {line} along the tool is inside the clearance of {}",
-                    space.obstacles()[which].name
-                )
-                .into());
-            }
-        }
+        let level = self.level_in(&space, &stances[0].joints);
+        let middle = self.middle(&space, &places, (level, &body))?;
         if middle.is_empty() {
             return Ok(None);
         }
@@ -152,7 +136,7 @@ impl Planner<'_> {
             .windows(2)
             .map(|pair| cost(&(pair[1] - pair[0])))
             .sum();
-        let route = self.route(&space, (&from, &to), &cost);
+        let route = self.route(&space, (&from, &to), level, &cost);
         let (mut points, is) = match route {
             Ok(found) => found,
             Err(_) if clear => return Ok(None),
@@ -172,6 +156,54 @@ impl Planner<'_> {
             points: words,
             length: lengths,
         }))
+    }
+
+    /// The level below which nothing but the obstacles is declared, in the space.
+    fn level_in(&self, space: &Space, joints: &Joints) -> f64 {
+        let height = |level: TravelLevel| {
+            let here = forward(self.machine, joints, level.tool_length());
+            Some(level.height()? - here.axis.dot(&here.tip) + space.tip(self.machine, joints).z)
+        };
+        self.level.and_then(height).unwrap_or(f64::NEG_INFINITY)
+    }
+
+    /// What of a run may be replaced. What leads up to the level and down from it stays, and so does what runs straight along the tool at both ends: it
+    /// leaves and enters what is not declared. Where the former is not clear, the tool rises and comes down along its axis instead.
+    fn middle(
+        &self,
+        space: &Space,
+        places: &[Vec3],
+        (level, body): (f64, &ToolBody),
+    ) -> Result<core::ops::Range<usize>, String> {
+        let vertical = |pair: &[Vec3]| (pair[1] - pair[0]).xy().norm() <= SAME_MM;
+        let legs: Vec<&[Vec3]> = places.windows(2).collect();
+        let high = |place: &Vec3| place.z >= level - LEVEL_MM;
+        let up = |leg: &&&[Vec3]| vertical(leg) && leg[1].z > leg[0].z;
+        let mut leading = legs.iter().take_while(up).count();
+        let first = places.iter().position(high).unwrap_or_default().max(leading);
+        if (0..first).all(|index| self.is_clear(index, body)) {
+            leading = first;
+        }
+        let down = |leg: &&&[Vec3]| vertical(leg) && leg[1].z < leg[0].z;
+        let mut end = legs.len() - legs[leading..].iter().rev().take_while(down).count();
+        let last = places.iter().rposition(high).unwrap_or(end).min(end).max(leading);
+        if (last..legs.len()).all(|index| self.is_clear(index, body)) {
+            end = last;
+        }
+        for (index, leg) in legs
+            .iter()
+            .enumerate()
+            .filter(|(index, _)| !(leading..end).contains(index))
+        {
+            let line = if index < leading { "retract" } else { "approach" };
+            if let Some(which) = space.blocked_by(&leg[0], &leg[1]) {
+                return Err(format!(
+                    "the {line} along the tool is inside the clearance of {}",
+                    space.obstacles()[which].name
+                ));
+            }
+        }
+        Ok(leading..end)
     }
 
     /// The positions before the run and after each motion.
@@ -216,10 +248,11 @@ impl Planner<'_> {
         &self,
         space: &Space,
         ends: (&Vec3, &Vec3),
+        level: f64,
         cost: &impl Fn(&Vec3) -> f64,
     ) -> Result<(Vec<Vec3>, f64), String> {
         space
-            .way(ends, cost, |height| self.reaches(space, height))
+            .way(ends, level, cost, |height| self.reaches(space, height))
             .map_err(|no| match no {
                 NoRoute::EndInside(which, end) => {
                     let end = if end == 0 { "start" } else { "end" };

@@ -1,7 +1,7 @@
 //! Rapid motions one after the other, each alone in a plain block: what `reroute-rapid` may replace.
 use trunnion_check::{Assume, Settings};
 use trunnion_interp::{ChainId, Fault, ModalState, Motion, MotionKind, Orientation, Sink, Swivel, Tool, run};
-use trunnion_machine::{AxisKind, Follower, Leg, Machine};
+use trunnion_machine::{AxisKind, Follower, Leg, Machine, TravelLevel};
 use trunnion_syntax::{Address, Block, BlockId, Item, Program, Value};
 
 /// One rapid motion.
@@ -21,13 +21,23 @@ pub(crate) struct Rapid {
     pub fixed: Option<&'static str>,
 }
 
+/// Rapid motions one after the other that may be replaced together.
+#[derive(Clone, Debug)]
+pub(crate) struct Run {
+    /// At least one.
+    pub rapids: Vec<Rapid>,
+    /// The highest level at which the rapids since the last cut go across the tool.
+    pub level: Option<TravelLevel>,
+}
+
 struct Collector<'p, 'm> {
     program: &'p Program,
     machine: &'m Machine,
     follower: Follower<'m>,
     assume: Assume,
     /// Runs so far; the last one may go on.
-    runs: Vec<Vec<Rapid>>,
+    runs: Vec<Run>,
+    level: Option<TravelLevel>,
     open: bool,
     last: Option<BlockId>,
 }
@@ -42,8 +52,10 @@ impl Sink for Collector<'_, '_> {
         self.last = Some(block);
         if !rapid {
             self.open = false;
+            self.level = self.level.filter(|_| matches!(motion.kind, MotionKind::Dwell(_)));
             return;
         }
+        self.level = TravelLevel::extended(self.level, self.machine, &leg);
         let left = self.assume.leaves(motion.undeclared);
         let fixed = if twice {
             Some("one block makes more than one motion")
@@ -71,10 +83,16 @@ impl Sink for Collector<'_, '_> {
         match self
             .runs
             .last_mut()
-            .filter(|run| joins && run.first().is_some_and(same))
+            .filter(|run| joins && run.rapids.first().is_some_and(same))
         {
-            Some(run) => run.push(rapid),
-            None => self.runs.push(vec![rapid]),
+            Some(run) => {
+                run.rapids.push(rapid);
+                run.level = self.level;
+            }
+            None => self.runs.push(Run {
+                rapids: vec![rapid],
+                level: self.level,
+            }),
         }
         self.open = true;
     }
@@ -139,11 +157,7 @@ fn is_plain(block: &Block<'_>) -> bool {
 }
 
 /// The runs of a program; each begins and ends where something else happens, or where a block cannot be edited.
-pub(crate) fn rapid_runs(
-    program: &Program,
-    settings: &Settings<'_>,
-    machine: &Machine,
-) -> Result<Vec<Vec<Rapid>>, String> {
+pub(crate) fn rapid_runs(program: &Program, settings: &Settings<'_>, machine: &Machine) -> Result<Vec<Run>, String> {
     if !settings.dialect.lex.format.has_words() {
         return Err("rapid motions of APT are not rewritten: its post-processor writes them".into());
     }
@@ -153,6 +167,7 @@ pub(crate) fn rapid_runs(
         follower: Follower::new(machine),
         assume: settings.assume,
         runs: Vec::new(),
+        level: None,
         open: false,
         last: None,
     };

@@ -1,7 +1,7 @@
 //! What an APT record asks for beside motions.
 use super::ask::{Ask, Coolant, Found, Why};
 use super::ask_iso::plain;
-use trunnion_syntax::{AptArg, Block, Record};
+use trunnion_syntax::{AptArg, Block, Record, TextRange};
 
 /// Records that motions, tools and feeds of the run hold, or that only say how the motions are meant.
 const HELD: &[&str] = &[
@@ -66,7 +66,7 @@ pub(super) fn record_asks(block: &Block<'_>) -> Found {
             },
         )),
         "AUXFUN" => match number(&record) {
-            Some(number) => found.asks.push((range, Ask::Auxiliary(number))),
+            Some(number) => auxiliary(number, range, text, &mut found),
             None => found.own(range, major, text, Why::Machine),
         },
         "CYCLE" if ["OFF", "ON", "INIT"].iter().any(|word| has(&record, word)) => {}
@@ -87,6 +87,24 @@ pub(super) fn record_asks(block: &Block<'_>) -> Found {
         _ => found.own(range, major, text, Why::Machine),
     }
     found
+}
+
+/// AUXFUN: the M code of that number, those below 31 as ISO 6983-1 has them. Motions hold whether and how the spindle turns.
+fn auxiliary(number: u32, range: TextRange, text: String, found: &mut Found) {
+    let ask = match number {
+        0 | 1 => Ask::Stop { optional: number == 1 },
+        2 | 30 => Ask::Idle(text),
+        3 | 4 => {
+            found.counter_clockwise = Some(number == 4);
+            return;
+        }
+        5 => return,
+        7 => Ask::Coolant(Coolant::Mist),
+        8 => Ask::Coolant(Coolant::Flood),
+        9 => Ask::Coolant(Coolant::Off),
+        _ => Ask::Auxiliary(number),
+    };
+    found.asks.push((range, ask));
 }
 
 fn spindle(record: &Record<'_>, text: &str, found: &mut Found) {

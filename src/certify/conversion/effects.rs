@@ -1,5 +1,5 @@
 //! Compares the requests of two programs: each must be between the same motions, in the same order and state.
-use super::ask::{Ask, Asked, Coolant, Own, Why};
+use super::ask::{Ask, Asked, Own, Why};
 use super::coolants::{AtStop, Coolants, after_stop, after_tool_change};
 use super::{Part, Reading};
 use crate::Outcome;
@@ -316,7 +316,14 @@ impl<'a> Side<'a> {
                     }
                     return;
                 }
-                self.own(name, text, why.may_be_dropped(), ran, events);
+                // its tolerances are lengths in the unit of the program
+                let inch = *why == Why::PathControl && self.reading.blocks[ran].unit_mm > 1.0;
+                let text = if inch {
+                    format!("{text} in inches")
+                } else {
+                    text.clone()
+                };
+                self.own(name, &text, why.may_be_dropped(), ran, events);
             }
         }
     }
@@ -333,15 +340,10 @@ impl<'a> Side<'a> {
     }
 
     /// An M code by its number: what it is called on the control for which it is written.
-    fn auxiliary(&mut self, number: u32, ran: usize, events: &mut Events) {
+    fn auxiliary(&self, number: u32, ran: usize, events: &mut Events) {
         let is = |code: u16| u32::from(code) == number;
-        match number {
-            0 | 1 => self.hear(&Ask::Stop { optional: number == 1 }, ran, events),
-            7 => self.coolants.set(Coolant::Mist),
-            8 => self.coolants.set(Coolant::Flood),
-            9 => self.coolants.set(Coolant::Off),
-            _ if self.clamps.iter().flatten().any(|codes| is(codes.on) || is(codes.off)) => {}
-            _ => events.push((Event::Own(format!("M{number}"), None), self.reading.blocks[ran].block)),
+        if !self.clamps.iter().flatten().any(|codes| is(codes.on) || is(codes.off)) {
+            events.push((Event::Own(format!("M{number}"), None), self.reading.blocks[ran].block));
         }
     }
 

@@ -44,8 +44,7 @@ pub struct Run<'a> {
 pub struct Posed {
     /// As programmed.
     pub motion: Motion,
-    /// Where the tool is before, workpiece frame without work offset, mm; `None`: unknown. Of a tool whose length is switched off, where
-    /// the tip is with the length that was last active for it; before, with the declared one.
+    /// Where the tool is before, workpiece frame without work offset, mm; `None`: unknown. Where its length is off: with its last or declared one.
     pub start: Option<Pose>,
     /// Where the tool is after, or why that is unknown.
     pub end: Result<Pose, String>,
@@ -61,8 +60,7 @@ pub struct Posed {
     pub counter_clockwise: Option<bool>,
     /// The spindle turned before a stop, a tool change or a tap that may have ended it.
     pub spindle_left: bool,
-    /// What the active zero point adds to the declared values of the work offset (G52, G92, G10, TRANS), mm and deg, and stays there after the end of the
-    /// program; a shift that the program takes back is in the coordinates.
+    /// What the active zero point adds for good to the declared values of the work offset (G52, G92, G10, TRANS), mm and deg; not what the program takes back.
     pub shift: [f64; 9],
     /// Name of the active work offset.
     pub work_offset: Option<Arc<str>>,
@@ -91,6 +89,8 @@ pub struct Ran {
     pub tool_data: Option<Tool>,
     /// Active work offset after it.
     pub work_offset: Option<Arc<str>>,
+    /// mm per length unit after it.
+    pub unit_mm: f64,
 }
 
 /// A program that was read.
@@ -103,8 +103,7 @@ pub struct Reading {
     pub motions: Vec<Posed>,
     /// Blocks in the order the control runs them.
     pub blocks: Vec<Ran>,
-    /// The block with which the run was given up, because it made more motions, or had more grave faults, than are held
-    /// ([`trunnion_interp::Limits::held`]).
+    /// The block with which the run was given up: more motions or grave faults than are held ([`trunnion_interp::Limits::held`]).
     pub given_up: Option<BlockId>,
     /// Faults that make it unknown what the program does.
     pub faults: Vec<Fault>,
@@ -324,6 +323,7 @@ impl Sink for Collector<'_> {
             tool: state.tool.number(),
             tool_data: state.tool.data(),
             work_offset: state.zero.offset_name(),
+            unit_mm: state.coordinates.unit_mm(),
         });
     }
 }

@@ -3,6 +3,7 @@ use super::path_tests::tool;
 use super::{certify, recheck};
 use crate::{Certificate, Claim, Outcome};
 use trunnion_interp::Setup;
+mod rapids;
 mod refitted;
 mod switch;
 mod unmeasured;

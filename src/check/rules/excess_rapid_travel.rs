@@ -31,7 +31,7 @@
 //! Heuristic: a detour around a clamp is not wasted, and only declared obstacles (`[[obstacle]]`) are known. The rule judges
 //! consecutive rapid motions between two feed motions with one tool. It compares the travel of the linear axes across the tool (a
 //! retract along the tool is not counted) and the turn of each rotary axis with the direct distance between the
-//! same ends; where obstacles are declared and no rotary axis turns, with the shortest path past them, the one that `reroute-rapid` takes. A direct distance below 0.1 mm or 0.1 deg counts as 0.1 mm or 0.1 deg; a detour below 10 mm or 10 deg is not
+//! same ends; where obstacles are declared and no rotary axis turns, with the shortest path past them (`reroute-rapid` takes it where it is not below the level of the rapids). A direct distance below 0.1 mm or 0.1 deg counts as 0.1 mm or 0.1 deg; a detour below 10 mm or 10 deg is not
 //! reported.
 //!
 //! # Thresholds
@@ -121,7 +121,9 @@ fn past_obstacles(arrival: &facts::Arrival<'_>) -> Option<f64> {
     let keep = machine.tolerances.clearance_mm();
     let space = Space::new(machine, &rapids.from, end.tool_length, &body, keep).ok()?;
     let ends = (space.tip(machine, &rapids.from), space.tip(machine, &end.joints));
-    let (points, _) = space.way((&ends.0, &ends.1), Vec3::norm, |_| true).ok()?;
+    let (points, _) = space
+        .way((&ends.0, &ends.1), f64::NEG_INFINITY, Vec3::norm, |_| true)
+        .ok()?;
     Some(points.windows(2).map(|pair| (pair[1] - pair[0]).xy().norm()).sum())
 }
 

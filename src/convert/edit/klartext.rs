@@ -150,6 +150,8 @@ impl Work<'_> {
         match said.head() {
             "" | "M" | "LBL" | "STOP" | "BEGIN" | "END" => Ok(()),
             "CALL" if said.words.get(1).is_some_and(|word| word.0 == "LBL") => Ok(()),
+            // another preset: the number of a row in a table
+            "CYCL" if is_preset(self.program, block) => Ok(()),
             "BLK" if !is_unit => Ok(()),
             "BLK" => said.words.iter().skip(2).try_for_each(|word| match word.2 {
                 Some(range) if matches!(word.0.as_str(), "X" | "Y" | "Z") => self.length(range),
@@ -322,6 +324,13 @@ impl Work<'_> {
         let (text, plain) = (write(result), write(plain));
         self.edits.put(self.program, range, text, plain)
     }
+}
+
+/// CYCL DEF 247: it activates a preset, and has no word but the number of that.
+fn is_preset(program: &Program, block: &Block<'_>) -> bool {
+    let text = program.text(block.range()).to_ascii_uppercase();
+    let mut words = text.split_whitespace().skip_while(|word| *word != "DEF");
+    words.nth(1) == Some("247")
 }
 
 /// A number that was written with a sign gets one.

@@ -39,7 +39,8 @@ pub enum NoRoute {
 }
 
 impl Space {
-    /// At a position of the machine; `None` as `Err`: the tool is not upright among the obstacles, or they move against each other (why, for people).
+    /// At a position of the machine, without the part; `Err`: the tool is not upright among the obstacles, or they move against each other (why, for
+    /// people).
     ///
     /// # Errors
     /// Why no space is known.
@@ -49,6 +50,31 @@ impl Space {
         tool_length: f64,
         body: &ToolBody,
         keep: f64,
+    ) -> Result<Self, String> {
+        Self::of(machine, joints, (tool_length, body, keep), |obstacle| {
+            !obstacle.is_part()
+        })
+    }
+
+    /// [`Self::new`] with the part: nothing goes sideways through it, and the tool may rise and come down in it.
+    ///
+    /// # Errors
+    /// Why no space is known.
+    pub fn with_part(
+        machine: &Machine,
+        joints: &Joints,
+        tool_length: f64,
+        body: &ToolBody,
+        keep: f64,
+    ) -> Result<Self, String> {
+        Self::of(machine, joints, (tool_length, body, keep), |_| true)
+    }
+
+    fn of(
+        machine: &Machine,
+        joints: &Joints,
+        (tool_length, body, keep): (f64, &ToolBody, f64),
+        counts: impl Fn(&Obstacle) -> bool,
     ) -> Result<Self, String> {
         let first = machine
             .obstacles
@@ -66,7 +92,7 @@ impl Space {
             .try_inverse()
             .ok_or_else(|| format!("{} moves with a linear axis", first.name))?;
         let mut obstacles = Vec::new();
-        for obstacle in machine.obstacles.iter().filter(|obstacle| !obstacle.is_part()) {
+        for obstacle in machine.obstacles.iter().filter(|obstacle| counts(obstacle)) {
             let other = frame_of(obstacle)?;
             let axis = tool_in_frame(machine, joints, length, other).axis;
             if (axis - Vec3::z()).norm() > PARALLEL {
@@ -115,13 +141,7 @@ impl Space {
 
     /// What is in the way at a height: rings whose union the axis of the tool must not enter.
     pub fn rings(&self, height: f64) -> Vec<Vec<Point>> {
-        let rings = self
-            .barriers(height)
-            .flat_map(|(obstacle, by)| match &obstacle.footprint {
-                Footprint::Polygon(polygon) => barrier(polygon, by),
-                Footprint::Circle { centre, radius } => vec![around(centre, radius + by)],
-            });
-        rings.collect()
+        self.barriers(height).flat_map(ring).collect()
     }
 
     /// The heights at which a way may run, not below this one: it, and just above each obstacle that is higher.
@@ -169,26 +189,27 @@ impl Space {
         Err(NoRoute::Enclosed)
     }
 
-    /// The cheapest way between two places: straight up, past the obstacles at one height, straight down. `reaches`: whether the axes reach a height.
-    /// With what it costs.
+    /// The cheapest way between two places: straight up, past the obstacles at one height, straight down. `lowest`: it goes sideways no lower than
+    /// this; `reaches`: whether the axes reach a height. With what it costs.
     ///
     /// # Errors
     /// Why there is none.
     pub fn way(
         &self,
         (from, to): (&Vec3, &Vec3),
+        lowest: f64,
         cost: impl Fn(&Vec3) -> f64,
         reaches: impl Fn(f64) -> bool,
     ) -> Result<(Vec<Vec3>, f64), NoRoute> {
         let mut best: Option<(Vec<Vec3>, f64)> = None;
         let mut why = None;
         for (point, height, end) in [(from, from.z, 0), (to, to.z, 1)] {
-            if !self.is_clear(height, &point.xy(), &point.xy()) {
+            if !self.may_descend(&point.xy(), height) {
                 let which = self.blocked_by(point, point);
                 return Err(which.map_or(NoRoute::Enclosed, |which| NoRoute::EndInside(which, end)));
             }
         }
-        for height in self.heights(from.z.max(to.z)) {
+        for height in self.heights(from.z.max(to.z).max(lowest)) {
             let upright = cost(&Vec3::new(0.0, 0.0, height - from.z)) + cost(&Vec3::new(0.0, 0.0, to.z - height));
             let least = upright + cost(&(to - from).xy().push(0.0));
             if best.as_ref().is_some_and(|(_, known)| *known <= least) || !reaches(height) {
@@ -217,13 +238,18 @@ impl Space {
 
     /// Whether a level leg keeps its distance from everything, to the last digit.
     pub fn is_clear(&self, height: f64, from: &Point, to: &Point) -> bool {
-        let straight = self
-            .barriers(height)
+        self.keeps(height, (from, to), |_| true) && (!self.independent || self.keeps_corridor(height, from, to))
+    }
+
+    /// Whether a straight level leg keeps its distance from the obstacles that count.
+    fn keeps(&self, height: f64, (from, to): (&Point, &Point), counts: impl Fn(&Obstacle) -> bool) -> bool {
+        let barriers = || self.barriers(height).filter(|(obstacle, _)| counts(obstacle));
+        let straight = barriers()
             .all(|(obstacle, by)| by <= SLACK_MM || obstacle.footprint.segment_distance(from, to) >= by - SLACK_MM);
         // without a radius and a clearance a leg may touch, not enter
-        let touches = self.barriers(height).any(|(_, by)| by <= SLACK_MM);
-        let entered = || Cover::new(self.rings(height)).is_entered(from, to);
-        straight && !(touches && entered()) && (!self.independent || self.keeps_corridor(height, from, to))
+        let touches = barriers().any(|(_, by)| by <= SLACK_MM);
+        let entered = || Cover::new(barriers().flat_map(ring).collect()).is_entered(from, to);
+        straight && !(touches && entered())
     }
 
     /// Whether the tool may also pass the other corners of the box between two points.
@@ -240,9 +266,9 @@ impl Space {
         })
     }
 
-    /// Whether the tool may move straight up or down at a point to a height, from any greater one.
+    /// Whether the tool may move straight up or down at a point to a height, from any greater one. The part does not count.
     pub fn may_descend(&self, point: &Point, height: f64) -> bool {
-        self.is_clear(height, point, point)
+        self.keeps(height, (point, point), |obstacle| !obstacle.is_part())
     }
 
     /// What the linear axes travel for a way of the tip in this space, with their joints, mm; `None` where they do not span it.
@@ -271,14 +297,16 @@ impl Space {
         Some((columns[0]?, columns[1]?, columns[2]?))
     }
 
-    /// The first obstacle that a straight line comes too near to, by its index.
+    /// The first obstacle but the part that a straight line comes too near to, by its index.
     pub fn blocked_by(&self, from: &Vec3, to: &Vec3) -> Option<usize> {
         self.obstacles.iter().position(|obstacle| {
-            self.body.columns().any(|(radius, above)| {
-                let raise = Vec3::new(0.0, 0.0, above);
-                column_distance(obstacle, &(from + raise), &(to + raise), self.keep)
-                    .is_some_and(|(distance, _)| distance < radius + self.keep - SLACK_MM)
-            })
+            let counts = !obstacle.is_part();
+            counts
+                && self.body.columns().any(|(radius, above)| {
+                    let raise = Vec3::new(0.0, 0.0, above);
+                    column_distance(obstacle, &(from + raise), &(to + raise), self.keep)
+                        .is_some_and(|(distance, _)| distance < radius + self.keep - SLACK_MM)
+                })
         })
     }
 }
@@ -316,6 +344,14 @@ fn carried(obstacle: &Obstacle, turn: &Mat3, here: &Vec3, there: &Vec3) -> Obsta
         bottom: obstacle.bottom + lift,
         top: obstacle.top + lift,
         ..obstacle.clone()
+    }
+}
+
+/// The ring that the axis of the tool must not enter, of an obstacle and the distance to be kept from it.
+fn ring((obstacle, by): (&Obstacle, f64)) -> Vec<Vec<Point>> {
+    match &obstacle.footprint {
+        Footprint::Polygon(polygon) => barrier(polygon, by),
+        Footprint::Circle { centre, radius } => vec![around(centre, radius + by)],
     }
 }
 

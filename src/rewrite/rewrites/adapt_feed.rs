@@ -214,6 +214,8 @@ struct Writer<'a> {
     next: u32,
     /// The F word in effect in the program before, and in the one after; none before the first, and after one that is no number.
     current: [Option<f64>; 2],
+    /// The F word in effect in the program before has a decimal point: without one it may be another number on the same control.
+    pointed: bool,
     /// The place that is open: its blocks and edits so far.
     open: Option<Place>,
     places: Vec<Place>,
@@ -242,6 +244,7 @@ impl<'a> Writer<'a> {
             style,
             next: 0,
             current: [None; 2],
+            pointed: false,
             open: None,
             places: Vec::new(),
             changed: 0,
@@ -254,7 +257,7 @@ impl<'a> Writer<'a> {
     }
 
     /// The F word of a block: its number, and the bytes of that.
-    fn word(&self, block: BlockId) -> Option<(Option<f64>, TextRange)> {
+    fn word(&mut self, block: BlockId) -> Option<(Option<f64>, TextRange)> {
         let words = self.program.block(block).words();
         let mut found = words.filter(|word| word.address == Address::Letter(b'F'));
         let word = found.next()?;
@@ -262,6 +265,7 @@ impl<'a> Writer<'a> {
             Value::Number(value) if found.next().is_none() => Some(value.to_f64()),
             _ => None,
         };
+        self.pointed = self.program.text(word.value_range).contains('.');
         Some((number, word.value_range))
     }
 
@@ -301,12 +305,16 @@ impl<'a> Writer<'a> {
             before
         });
         let edit = match (wanted, own) {
-            (Some(value), Some((_, range))) if wanted != before => Some((range, self.text(value))),
+            (Some(value), Some((_, range))) if wanted != before => Some((range, self.text(value, self.pointed))),
             (Some(value), None) if wanted != self.current[1] => {
                 let at = end_of_words(self.program, cut.block);
                 Some((
                     TextRange::new(at, at),
-                    format!("{}F{}", blank_before_f(self.program, at), self.text(value)),
+                    format!(
+                        "{}F{}",
+                        blank_before_f(self.program, at),
+                        self.text(value, self.pointed)
+                    ),
                 ))
             }
             _ => None,
@@ -357,8 +365,8 @@ impl<'a> Writer<'a> {
         Ok(before)
     }
 
-    /// A feed in the program's digits, or a few more where it needs them.
-    fn text(&self, value: f64) -> String {
+    /// A feed in the program's digits, or a few more where it needs them; `pointed`: with a decimal point, else without one where it is whole.
+    fn text(&self, value: f64, pointed: bool) -> String {
         let exact = |decimals: &usize| {
             let style = NumberStyle {
                 decimals: *decimals,
@@ -369,6 +377,7 @@ impl<'a> Writer<'a> {
         let decimals = (self.style.decimals..=self.style.decimals.max(MOST_DECIMALS)).find(exact);
         let style = NumberStyle {
             decimals: decimals.unwrap_or(MOST_DECIMALS),
+            whole_point: pointed,
             ..self.style
         };
         style.write(value, false)

@@ -9,7 +9,9 @@
 //! of its holder, plus the clearance, with mitred corners. Barriers that touch are one. The shortest path round them turns only at their
 //! corners; it is found exactly (visibility graph, A*). The tool may also pass above: at each height at which an obstacle ends, the path
 //! past the higher ones is compared. The measure is the length of the path, or with `--cost time` the time of the slowest axis.
-//! A straight retract along the tool at the beginning of a run of rapid motions, and a straight approach at its end, stay as they are.
+//! The level of a run is the highest height at which its rapids go across the tool. What leads up to that level at the beginning of a run, and what comes
+//! down from it at its end, stays as it is; where it is too near to an obstacle, the tool rises and comes down along its axis instead. In between the
+//! new way goes at the level or above it. A declared part (`part = true`) is an obstacle for it, too.
 //! Points are written in the digits of the program, rounded away from the obstacles.
 //!
 //! # Example
@@ -37,15 +39,18 @@
 //!
 //! # Claim
 //! Everything but rapid motions is the same, each run of them begins and ends where it did, and every changed motion keeps the tool away
-//! from every declared obstacle by the clearance. `certify` measures that again, without a search. Where the machine file does not say that the axes
+//! from every declared obstacle by the clearance. A motion that the old run does not have is nowhere below its level, or runs straight along the tool above the start or
+//! the end of what differs; only the latter may touch the part. `certify` measures that again, without a search. Where the machine file does not say that the axes
 //! arrive together in a rapid (`[control] rapid = "synchronous"`), everything between the ends of a motion is kept clear.
 //!
 //! # Traps
-//! - Only declared obstacles are known. A detour around something that is not declared looks needless; declare it. No rapid goes
-//!   lower along the tool than before.
+//! - Only declared obstacles are known. A detour around something that is not declared looks needless; declare it, the part among it. A new way
+//!   goes across the tool nowhere lower than the highest level at which the rapids since the last cut did. Where they all stay at one level, that level is taken
+//!   to be free but for the obstacles.
 //! - The diameter of the tool must be declared, and the work offset and tool length that the program uses.
 //! - Blocks with other words than G0, X, Y and Z stay as they are; so do motions in which a rotary axis turns, G91, G53 and tilted planes.
 //! - New blocks have no block number.
+//! - Blocks with `/` stay as they are. Where only one state of the switch for block delete needs another way, the reason is told.
 //! - The column above the tool up to the spindle counts too: the tool may not pass below an overhanging obstacle.
 //!
 //! # Sources
@@ -53,13 +58,15 @@
 //! heuristic determination of minimum cost paths (1968).
 use super::Body;
 use crate::rapid_route::{Grid, Measure, Planner, Stay, Way};
-use crate::rapid_runs::{Rapid, rapid_runs};
+use crate::rapid_runs::{Rapid, Run, rapid_runs};
 use crate::style::NumberStyle;
 use crate::{Change, Known, Options, Place, Proposal, Proposed, Refusal};
 use trunnion_certify::Claim;
 use trunnion_certify::postures::PostureCost;
 use trunnion_check::Settings;
 use trunnion_geometry::Vec3;
+use trunnion_interp::deleted_levels;
+use trunnion_machine::Machine;
 use trunnion_syntax::{Address, Item, Program, TextEdit, TextRange, Value, Word};
 
 pub(super) const REWRITE: Body = Body {
@@ -74,48 +81,23 @@ const LEAST_DIGITS: [usize; 2] = [3, 4];
 /// Ends of a run are equal within this, mm: numbers are computed, not measured.
 const SAME_MM: f64 = 1e-6;
 
+/// Why rapids stay that would be changed in one state of the switch for block delete.
+const SKIPPED: &str = "where the blocks with / are skipped, the rapid motions come too near to an obstacle or make a detour, and where they run, they do not: \
+                       declare the state of the switch ([control] block_delete = true or false in trunnion.toml, or --block-delete)";
+
 fn propose(program: &Program, settings: &Settings<'_>, options: &Options, _: &Known) -> Proposed {
-    let Some(machine) = settings.machine else {
-        return Err(Refusal::missing(
-            "no machine is named, and obstacles belong to a machine (--machine)",
-        ));
-    };
-    if machine.obstacles.only_parts() {
-        return Err(Refusal::missing(
-            "no obstacle is declared, so it is unknown what a shorter path would pass: [[obstacle]] in trunnion.toml",
-        ));
-    }
-    let keep = machine.tolerances.clearance_mm();
-    let measure = match options.cost {
-        PostureCost::Time => Measure::Time,
-        PostureCost::Travel | PostureCost::Deviation => Measure::Length,
-    };
-    let slow = |joint: &&usize| machine.axes[**joint].max_speed.is_none_or(|speed| speed <= 0.0);
-    if let (Measure::Time, Some(&joint)) = (measure, machine.linear.iter().find(slow)) {
-        let letter = char::from(machine.axes[joint].letter);
-        return Err(Refusal::missing(format!(
-            "the machine file does not declare the highest speed of {letter}, and --cost time depends on it"
-        )));
-    }
+    let search = Search::new(settings, options)?;
     let mut places = Vec::new();
     let (mut runs, mut length) = (0, [0.0; 2]);
-    for run in rapid_runs(program, settings, machine)? {
-        let planner = Planner {
-            machine,
-            run: &run,
-            keep,
-            measure,
-        };
+    for found in rapid_runs(program, settings, search.machine)? {
+        let run = &found.rapids;
         let style = Style::of(program, run[0].unit_mm);
-        let grid = Grid {
-            step_mm: 2.0 * style.numbers.rounding() * run[0].unit_mm,
-        };
-        let change = match planner.plan(grid) {
+        let change = match search.plan(&found, &style) {
             Ok(None) => continue,
             Ok(Some(way)) => {
                 runs += 1;
                 length = [length[0] + way.length[0], length[1] + way.length[1]];
-                Change::Edits(write(program, &run, &way, &style))
+                Change::Edits(write(program, run, &way, &style))
             }
             Err(Stay::Missing(why)) => Change::Possible(why),
             Err(Stay::Refused(why)) => Change::Refused(why),
@@ -126,6 +108,7 @@ fn propose(program: &Program, settings: &Settings<'_>, options: &Options, _: &Kn
             change,
         });
     }
+    search.where_skipped(program, settings, &mut places)?;
     if places.is_empty() {
         return Ok(None);
     }
@@ -137,7 +120,7 @@ fn propose(program: &Program, settings: &Settings<'_>, options: &Options, _: &Kn
         claim: Claim::ClearRapids {
             tolerance_mm: SAME_MM,
             tolerance_deg: SAME_MM,
-            clearance_mm: keep,
+            clearance_mm: search.keep,
             assumed_zeros: settings.assume.work_offset && settings.assume.tool_length,
         },
         summary: format!(
@@ -147,6 +130,83 @@ fn propose(program: &Program, settings: &Settings<'_>, options: &Options, _: &Kn
             length[1]
         ),
     }))
+}
+
+/// What ways are looked for.
+struct Search<'a> {
+    machine: &'a Machine,
+    keep: f64,
+    measure: Measure,
+}
+
+impl<'a> Search<'a> {
+    fn new(settings: &Settings<'a>, options: &Options) -> Result<Self, Refusal> {
+        let Some(machine) = settings.machine else {
+            return Err(Refusal::missing(
+                "no machine is named, and obstacles belong to a machine (--machine)",
+            ));
+        };
+        if machine.obstacles.only_parts() {
+            return Err(Refusal::missing(
+                "no obstacle is declared, so it is unknown what a shorter path would pass: [[obstacle]] in trunnion.toml",
+            ));
+        }
+        let measure = match options.cost {
+            PostureCost::Time => Measure::Time,
+            PostureCost::Travel | PostureCost::Deviation => Measure::Length,
+        };
+        let slow = |joint: &&usize| machine.axes[**joint].max_speed.is_none_or(|speed| speed <= 0.0);
+        if let (Measure::Time, Some(&joint)) = (measure, machine.linear.iter().find(slow)) {
+            let letter = char::from(machine.axes[joint].letter);
+            return Err(Refusal::missing(format!(
+                "the machine file does not declare the highest speed of {letter}, and --cost time depends on it"
+            )));
+        }
+        Ok(Self {
+            machine,
+            keep: machine.tolerances.clearance_mm(),
+            measure,
+        })
+    }
+
+    fn plan(&self, run: &Run, style: &Style) -> Result<Option<Way>, Stay> {
+        let planner = Planner {
+            machine: self.machine,
+            run: &run.rapids,
+            level: run.level,
+            keep: self.keep,
+            measure: self.measure,
+        };
+        planner.plan(Grid {
+            step_mm: 2.0 * style.numbers.rounding() * run.rapids[0].unit_mm,
+        })
+    }
+
+    /// Adds the runs that would be changed only where blocks with `/` are skipped, if it is not declared whether they run.
+    fn where_skipped(
+        &self,
+        program: &Program,
+        settings: &Settings<'_>,
+        places: &mut Vec<Place>,
+    ) -> Result<(), Refusal> {
+        if settings.setup.control.block_delete.is_some() || deleted_levels(program, settings.dialect).1 == 0 {
+            return Ok(());
+        }
+        let mut skipping = settings.clone();
+        skipping.setup.control.block_delete = Some(true);
+        for found in rapid_runs(program, &skipping, self.machine)? {
+            let run = &found.rapids;
+            let (first, last) = (run[0].block, run[run.len() - 1].block);
+            let known = places.iter().any(|place| place.first <= last && first <= place.last);
+            let style = Style::of(program, run[0].unit_mm);
+            if !known && !matches!(self.plan(&found, &style), Ok(None)) {
+                let change = Change::Refused(SKIPPED.into());
+                places.push(Place { first, last, change });
+            }
+        }
+        places.sort_by_key(|place| place.first);
+        Ok(())
+    }
 }
 
 /// How the program writes coordinates.

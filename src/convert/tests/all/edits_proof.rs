@@ -107,6 +107,24 @@ fn edits_and_their_opposites_give_the_numbers_again() {
     }
 }
 
+/// CYCL DEF 247 activates a row of the preset table: none of its words is a length.
+#[test]
+fn klartext_with_a_preset_is_edited() {
+    let part = "BEGIN PGM A MM\nTOOL CALL 1 Z S1000\nCYCL DEF 247 DATUM SETTING ~\n Q339=+1 ;DATUM NUMBER\nL X+0 Y+0 Z+50 R0 FMAX M3\nL Z-2 F300\nL X+29 Y-49\nL Z+50 FMAX M2\nEND PGM A MM\n";
+    becomes(
+        "heidenhain-klartext",
+        part,
+        shift(1.0, 0.0, 0.0),
+        &part.replace("X+0 ", "X+1 ").replace("X+29", "X+30"),
+    );
+    becomes(
+        "heidenhain-klartext",
+        part,
+        Edit::Shape(Shape::Mirror(1)),
+        &part.replace("Y-49", "Y+49"),
+    );
+}
+
 #[test]
 fn klartext_is_edited_as_far_as_its_words_are_known() {
     let part = "0 BEGIN PGM A MM\n1 BLK FORM 0.1 Z X+0 Y+0 Z-25.4\n2 BLK FORM 0.2 X+127 Y+127 Z+0\n3 TOOL CALL 1 Z S1000\n4 L X+25.4 Y-50.8 R0 FMAX M3\n5 L Z+5.08 FMAX\n6 L Z-2.54 R0 F254\n7 CC X+50.8 \

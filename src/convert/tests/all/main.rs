@@ -18,6 +18,7 @@ mod proof;
 mod real;
 mod refused;
 mod round;
+mod same_control;
 mod shifts;
 mod support;
 mod unsafe_gaps;

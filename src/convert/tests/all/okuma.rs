@@ -14,7 +14,7 @@ fn there_and_back_in_three_axes() {
     for line in [
         "O0001",
         "G15 H1",
-        "G56 H1",
+        "G0 G56 H1 X10. Y-5. Z50.",
         "G4 F0.5",
         "G17 G2 X30. Y-15. I0. J-10.",
         "M2",

@@ -212,7 +212,7 @@ mod tests {
         let found = required.nearest_within(&aside, &left).expect("enough");
         let looked = u64::MAX - left.get();
         assert!((found.distance - 200.0_f64.sqrt()).abs() < 1e-9, "{found:?}");
-        assert!(looked >= 300 && looked <= NEAR, "{looked}");
+        assert!((300..=NEAR).contains(&looked), "{looked}");
         for most in [0, 1, 10, looked] {
             let left = Cell::new(most);
             assert_eq!(required.nearest_within(&aside, &left), None, "{most}");

@@ -20,14 +20,14 @@ pub struct Options {
     /// Samples per block that are kept for a picture; 0: none.
     pub spots: usize,
     /// How many boxes about triangles of the surface may be looked at to find the points nearest to the tip, in all blocks together, beyond a few hundred
-    /// of their own: [`MOST_LOOKS`]. Those beyond a thousand for one point count eight times.
+    /// of their own: [`MOST_LOOKS`]. Those beyond a thousand for one point count sixteen times.
     pub looks: u64,
 }
 
 /// How many boxes are looked at, unless somebody says otherwise. Ordinary surfaces take about a hundred for each point; many triangles that are
 /// equally near take all of them. When half of them is used up, bounds are no longer brought near to the samples; when all are, blocks that need more
 /// are not judged.
-pub const MOST_LOOKS: u64 = 200_000_000;
+pub const MOST_LOOKS: u64 = 400_000_000;
 
 /// What each block may look at, whatever the others took.
 const OWN_LOOKS: u64 = 500;

@@ -14,7 +14,7 @@ const MOST_TRIANGLES: usize = 1_500_000;
 const NEAR: u64 = 1000;
 
 /// The cost of each further one: these are many and far apart in memory, and each is fetched from there.
-const FAR_COST: u64 = 8;
+const FAR_COST: u64 = 16;
 
 /// A place on a sheet.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -200,17 +200,19 @@ mod tests {
     /// For a point in the boxes about many triangles all of them are looked at, and no more than may be.
     #[test]
     fn no_more_boxes_are_looked_at_than_may_be() {
-        let count = 600_u32;
-        let mut points = vec![Vec3::zeros()];
-        points.extend((0..=count).map(|index| Vec3::new(50.0, f64::from(index) / 12.0, 0.0)));
-        let fan = (1..=count).map(|index| [0, index, index + 1]).collect();
-        let required = Required::from_triangles(&points, fan).expect("a surface");
+        let fan = |count: u32| {
+            let mut points = vec![Vec3::zeros()];
+            points.extend((0..=count).map(|index| Vec3::new(50.0, f64::from(index) * 50.0 / f64::from(count), 0.0)));
+            let triangles = (1..=count).map(|index| [0, index, index + 1]).collect();
+            Required::from_triangles(&points, triangles).expect("a surface")
+        };
+        let required = fan(600);
         let aside = Vec3::new(10.0, 30.0, 0.0);
         let left = Cell::new(u64::MAX);
         let found = required.nearest_within(&aside, &left).expect("enough");
         let looked = u64::MAX - left.get();
         assert!((found.distance - 200.0_f64.sqrt()).abs() < 1e-9, "{found:?}");
-        assert!(looked >= 300 && looked <= NEAR, "{looked}");
+        assert!((300..=NEAR).contains(&looked), "{looked}");
         for most in [0, 1, 10, looked] {
             let left = Cell::new(most);
             assert_eq!(required.nearest_within(&aside, &left), None, "{most}");
@@ -218,6 +220,10 @@ mod tests {
         }
         let left = Cell::new(looked + 1);
         assert_eq!(required.nearest_within(&aside, &left), Some(found));
+        // ten times as many boxes cost more than ten times as much
+        let left = Cell::new(u64::MAX);
+        assert!(fan(6000).nearest_within(&aside, &left).is_some());
+        assert!(u64::MAX - left.get() > 50 * looked, "{}", u64::MAX - left.get());
         let off = Vec3::new(f64::NAN, 0.0, 0.0);
         assert!(required.nearest(&off).distance.is_nan());
     }

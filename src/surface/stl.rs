@@ -15,17 +15,15 @@ const TRIANGLE: usize = 50;
 /// The corners of the triangles, mm.
 pub(crate) fn triangles(bytes: &[u8]) -> Result<Vec<[Vec3; 3]>, SurfaceError> {
     if bytes.len() > MOST_MIB << 20 {
-        return Err(wrong(format!(
+        return Err(wrong(&format!(
             "is larger than {MOST_MIB} MiB, the most for an STL: export it with fewer triangles, or only the part of the surface that this program cuts"
         )));
     }
     if bytes.is_empty() {
-        return Err(wrong("the file is empty: export the surface again".to_owned()));
+        return Err(wrong("the file is empty: export the surface again"));
     }
     if bytes.starts_with(&[0xff, 0xfe]) || bytes.starts_with(&[0xfe, 0xff]) {
-        return Err(wrong(
-            "is UTF-16 text; save it as plain ASCII, or export a binary STL".to_owned(),
-        ));
+        return Err(wrong("is UTF-16 text; save it as plain ASCII, or export a binary STL"));
     }
     let text = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
     if announced(bytes).is_some_and(|count| bytes.len() as u64 == HEAD as u64 + count * TRIANGLE as u64) {
@@ -36,7 +34,7 @@ pub(crate) fn triangles(bytes: &[u8]) -> Result<Vec<[Vec3; 3]>, SurfaceError> {
     if is_text { ascii(text) } else { binary(bytes) }
 }
 
-fn wrong(what: String) -> SurfaceError {
+fn wrong(what: &str) -> SurfaceError {
     SurfaceError {
         place: None,
         message: format!("cannot be read as STL: {what}"),
@@ -51,7 +49,7 @@ fn announced(bytes: &[u8]) -> Option<u64> {
 
 fn binary(bytes: &[u8]) -> Result<Vec<[Vec3; 3]>, SurfaceError> {
     let Some(count) = announced(bytes) else {
-        return Err(wrong(format!(
+        return Err(wrong(&format!(
             "an ASCII file begins with `solid`, and a binary one has at least {HEAD} bytes; this one has {}: it is cut, or no STL",
             bytes.len()
         )));
@@ -59,12 +57,12 @@ fn binary(bytes: &[u8]) -> Result<Vec<[Vec3; 3]>, SurfaceError> {
     let body = &bytes[HEAD..];
     let holds = (body.len() / TRIANGLE) as u64;
     if count > holds {
-        return Err(wrong(format!(
+        return Err(wrong(&format!(
             "it announces {count} triangles but contains {holds}: it is cut, or no STL; copy or export it again"
         )));
     }
     if count < holds {
-        return Err(wrong(format!(
+        return Err(wrong(&format!(
             "it announces {count} triangles but contains {holds}: which of them belong to the surface is not known; export it again"
         )));
     }
@@ -80,7 +78,7 @@ fn binary(bytes: &[u8]) -> Result<Vec<[Vec3; 3]>, SurfaceError> {
             .iter()
             .find(|corner| !corner.iter().all(|value| is_length(*value)))
         {
-            return Err(wrong(format!(
+            return Err(wrong(&format!(
                 "triangle {} of {count} has the corner ({}, {}, {}), which is no place in mm: export it again",
                 index + 1,
                 corner.x,
@@ -134,7 +132,7 @@ impl<'a> Lines<'a> {
         let column = (at.as_ptr() as usize).saturating_sub(line.as_ptr() as usize) + 1;
         SurfaceError {
             place: Some((self.number, column)),
-            ..wrong(what.to_owned())
+            ..wrong(what)
         }
     }
 
@@ -147,7 +145,7 @@ impl<'a> Lines<'a> {
             );
             return Err(SurfaceError {
                 place: Some((self.number.max(1), 1)),
-                ..wrong(what)
+                ..wrong(&what)
             });
         };
         let mut rest = line.trim_ascii_start();
@@ -309,7 +307,7 @@ mod tests {
             let message = refused(&whole.as_bytes()[..end]);
             assert!(!message.contains("whole buffer") && message.len() < 300, "{message}");
         }
-        assert!(refused(whole[..53].as_bytes()).contains("is cut"));
+        assert!(refused(&whole.as_bytes()[..53]).contains("is cut"));
         assert!(refused(b"solid\n").contains("the file ends where `endsolid` is expected"));
         assert!(refused((text() + "facet\n").as_bytes()).contains("stands where `solid` is expected"));
     }

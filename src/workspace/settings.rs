@@ -9,11 +9,11 @@ use trunnion_machine::{MOST_OBSTACLES, Machine};
 /// Settings that were read last.
 static SETTINGS: Kept<Result<Arc<Config>, ConfigError>> = Kept::new();
 
+/// The file of settings and its text; none where a program has no settings.
+pub(crate) type ConfigFile = Option<(PathBuf, String)>;
+
 /// The settings and their file with its text: `--config`, or `trunnion.toml` in the program's folder (standard input: the current one) or above.
-pub(crate) fn config_for(
-    path: Option<&Path>,
-    overrides: &Overrides,
-) -> Result<(Arc<Config>, Option<(PathBuf, String)>), LoadError> {
+pub(crate) fn config_for(path: Option<&Path>, overrides: &Overrides) -> Result<(Arc<Config>, ConfigFile), LoadError> {
     let found = match &overrides.config {
         Some(file) => Some(file.clone()),
         None => folder_of(path).and_then(|folder| {

@@ -302,7 +302,8 @@ mod tests {
     /// As many variables as a file can hold; each was compared with all before it.
     #[test]
     fn many_variables_are_read_in_their_order() {
-        let numbers: String = (0..90_000).rev().map(|at| format!("R{at} = 1\n")).collect();
+        let lines: Vec<String> = (0..90_000).rev().map(|at| format!("R{at} = 1\n")).collect();
+        let numbers = lines.concat();
         let config = Config::parse(&format!("[variables]\n{numbers}")).expect("valid");
         assert_eq!(config.setup.named_variables.0.len(), 90_000);
         let named = &config.setup.named_variables.0;

@@ -2,6 +2,7 @@
 use std::collections::BTreeMap;
 use std::fmt::Write;
 use std::sync::Arc;
+use std::sync::atomic::{AtomicUsize, Ordering};
 use trunnion_ngc::{
     At, Canon, Engine, Error, FileId, Files, Limits, Loaded, Searched, Setup, Sink, Source, Start, State, Step,
 };
@@ -363,15 +364,17 @@ mod properties {
     }
 }
 
-/// One file for every name.
-struct OneFile;
+/// One file for every name, and how often it was asked for.
+#[derive(Default)]
+struct OneFile(AtomicUsize);
 
 impl Files for OneFile {
     fn load(&self, _: &str) -> Result<Loaded, Vec<Searched>> {
+        self.0.fetch_add(1, Ordering::Relaxed);
         let subs = (100..150).map(|number| format!("o{number} sub\nG0 X{number}\no{number} endsub\n"));
         Ok(Loaded {
             path: "all.ngc".to_owned(),
-            bytes: Arc::from(subs.collect::<String>().as_bytes()),
+            bytes: Arc::from(subs.collect::<Vec<_>>().concat().as_bytes()),
         })
     }
 }
@@ -379,13 +382,16 @@ impl Files for OneFile {
 /// A file is opened once, under whatever names it is found. All files that were open were searched for each new name.
 #[test]
 fn a_file_is_opened_once() {
+    let files = Arc::new(OneFile::default());
     let setup = Setup {
-        files: Some(Arc::new(OneFile)),
+        files: Some(Arc::clone(&files) as Arc<dyn Files>),
         ..Setup::default()
     };
-    let calls: String = (100..150).rev().map(|number| format!("o{number} call\n")).collect();
-    let (engine, heard, _) = run(format!("{calls}M2\n").as_bytes(), &setup, true);
+    let calls = (100..150).rev().map(|number| format!("o{number} call\n"));
+    let program = calls.collect::<Vec<_>>().concat() + "M2\n";
+    let (engine, heard, _) = run(program.as_bytes(), &setup, true);
     assert!(heard.errors.is_empty(), "{:?}", &heard.errors[..1]);
     assert_eq!((engine.file_count(), heard.feeds.len()), (2, 50));
     assert!(heard.feeds.iter().all(|at| at.file == FileId(1)));
+    assert_eq!(files.0.load(Ordering::Relaxed), 50);
 }

@@ -68,13 +68,7 @@ fn check(leg: &facts::Passing<'_>, out: &mut Reporter<'_>) {
     });
     let most = leg.machine.most_turned.saturating_mul(FOR_EACH_STEP);
     if !out.may_look(most) {
-        return out.unknown(leg, Merge::once(SPENT), |draft| {
-            draft
-                .say(format!(
-                    "more than {most} pieces of motions near obstacles, {FOR_EACH_STEP} times `[limits] steps`: no further motion is judged"
-                ))
-                .help("divide the program, declare fewer obstacles, or raise `[limits] steps` in trunnion.toml (--max-steps)");
-        });
+        return spent(leg, out, most);
     }
     let undeclared = leg.trail.undeclared;
     let found = nearness(leg.machine, leg.leg, &body, keep);
@@ -115,27 +109,12 @@ fn check(leg: &facts::Passing<'_>, out: &mut Reporter<'_>) {
                 );
                 not_known(leg, out, UNDECIDED | key, &what);
             }
-            Nearness::Near(by) => {
-                let by = by.filter(|_| declared.is_some());
-                let distance = by.map_or_else(
-                    || "nearer than the clearance".to_owned(),
-                    |by| format!("at {}, measured horizontally,", mm(by)),
-                );
-                out.finding_as(Warning, leg, Merge::runs(NEAR | key, -by.unwrap_or(0.0)), |draft| {
-                    draft
-                        .say(format!(
-                            "the tool passes {name} {distance} in rapid; {} is to be kept",
-                            mm(keep)
-                        ))
-                        .help("go farther round it, or set `clearance` in [tolerances]")
-                        .fix_rapid(leg)
-                        .value("limit_mm", keep)
-                        .value_text("obstacle", name.clone());
-                    if let Some(by) = by {
-                        draft.value("value_mm", by);
-                    }
-                });
-            }
+            Nearness::Near(by) => passes(
+                leg,
+                out,
+                (name.as_str(), NEAR | key),
+                (by.filter(|_| declared.is_some()), keep),
+            ),
             Nearness::Unknown(why) => {
                 out.unknown(leg, Merge::run(UNDECIDED | key, 0.0), |draft| {
                     draft
@@ -145,6 +124,28 @@ fn check(leg: &facts::Passing<'_>, out: &mut Reporter<'_>) {
             }
         }
     }
+}
+
+/// The tool passes an obstacle in rapid at `by`, mm, where that is known; `keep`: the clearance, mm.
+fn passes(leg: &facts::Passing<'_>, out: &mut Reporter<'_>, (name, key): (&str, u64), (by, keep): (Option<f64>, f64)) {
+    let distance = by.map_or_else(
+        || "nearer than the clearance".to_owned(),
+        |by| format!("at {}, measured horizontally,", mm(by)),
+    );
+    out.finding_as(Warning, leg, Merge::runs(key, -by.unwrap_or(0.0)), |draft| {
+        draft
+            .say(format!(
+                "the tool passes {name} {distance} in rapid; {} is to be kept",
+                mm(keep)
+            ))
+            .help("go farther round it, or set `clearance` in [tolerances]")
+            .fix_rapid(leg)
+            .value("limit_mm", keep)
+            .value_text("obstacle", name.to_owned());
+        if let Some(by) = by {
+            draft.value("value_mm", by);
+        }
+    });
 }
 
 /// The tool goes through an obstacle.
@@ -158,6 +159,17 @@ fn through(leg: &facts::Passing<'_>, out: &mut Reporter<'_>, (name, key): (&str,
         if rapid {
             draft.fix_rapid(leg);
         }
+    });
+}
+
+/// No further motion is judged.
+fn spent(leg: &LegView<'_>, out: &mut Reporter<'_>, most: u64) {
+    out.unknown(leg, Merge::once(SPENT), |draft| {
+        draft
+            .say(format!(
+                "more than {most} pieces of motions near obstacles, {FOR_EACH_STEP} times `[limits] steps`: no further motion is judged"
+            ))
+            .help("divide the program, declare fewer obstacles, or raise `[limits] steps` in trunnion.toml (--max-steps)");
     });
 }
 

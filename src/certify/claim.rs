@@ -229,3 +229,23 @@ impl Claim {
         )
     }
 }
+
+/// What of a claim must hold with any values of what nobody declares. `None`: nothing, as these values are claimed to be zero.
+pub(crate) fn for_any_values(claim: &Claim) -> Option<Claim> {
+    match claim {
+        Claim::ClearRapids { assumed_zeros, .. } | Claim::InsertedRetracts { assumed_zeros, .. } if *assumed_zeros => {
+            None
+        }
+        // how fast the axes are depends on where the part is
+        Claim::AdaptedFeed {
+            tolerance_mm,
+            tolerance_deg,
+            ..
+        } => Some(Claim::SamePath {
+            tolerance_mm: *tolerance_mm,
+            tolerance_deg: *tolerance_deg,
+        }),
+        claim if claim.is_rewrite() => None,
+        claim => Some(claim.clone()),
+    }
+}

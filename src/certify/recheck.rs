@@ -3,6 +3,7 @@
 //! Both texts are parsed, run and followed again by floors 0 to 3. Each pair of motions is compared (`compare`), the paths between
 //! block ends are bounded (`path`), and the texts are compared byte by byte outside coordinate words (`text`).
 use crate::certificate::{NamedDigest, SCHEMA, TextDigest, other_schema, other_text};
+use crate::claim::for_any_values;
 use crate::digest::{dialect_digest, machine_digest, setup_digest};
 use crate::library::Recorder;
 use crate::proof::Proof;
@@ -13,7 +14,9 @@ use std::sync::Arc;
 use trunnion_dialect::Dialect;
 use trunnion_interp::{FaultKind, Library, Setup};
 use trunnion_machine::Machine;
-use trunnion_same::{Input, Refit, Steps, Verdict, compare, only_by_chance, undeclared, unrelated, variables_differ};
+use trunnion_same::{
+    Input, Refit, Steps, Verdict, are_two_controls, compare, only_by_chance, undeclared, unrelated, variables_differ,
+};
 use trunnion_syntax::{LineIndex, Program, parse};
 
 /// Tries to prove `claim` for two texts.
@@ -197,10 +200,10 @@ fn prove_for_all(question: Question<'_>) -> Result<Certificate, Outcome> {
     } = question;
     let (proved, unset) = prove_run(question)?;
     if texts[0] != texts[1]
-        && let Some(claim) = &claim_for_all(claim)
+        && let Some(claim) = &for_any_values(claim)
         && let Some(unrelated) = unrelated(setup, dialects, &unset)
     {
-        // only that they differ counts: with stand-ins a pose may be out of reach
+        // of one control only that they differ counts: with stand-ins a pose may be out of reach
         let again = prove_run(Question {
             setup: &unrelated,
             claim,
@@ -208,33 +211,13 @@ fn prove_for_all(question: Question<'_>) -> Result<Certificate, Outcome> {
         });
         let line = match again {
             Err(Outcome::Refuted(found)) => found.line,
-            Err(Outcome::Unknown(gap)) if variables_differ(&gap.to_string()) => gap.line,
+            Err(Outcome::Unknown(gap)) if are_two_controls(dialects) || variables_differ(&gap.to_string()) => gap.line,
             _ => return Ok(proved),
         };
         let place = line.map_or_else(String::new, |line| format!("line {line}: "));
         return Err(Outcome::unknown_at(line, place + &only_by_chance(&unset)));
     }
     Ok(proved)
-}
-
-/// What of a claim must hold with any values of what nobody declares. `None`: nothing, as these values are claimed to be zero.
-fn claim_for_all(claim: &Claim) -> Option<Claim> {
-    match claim {
-        Claim::ClearRapids { assumed_zeros, .. } | Claim::InsertedRetracts { assumed_zeros, .. } if *assumed_zeros => {
-            None
-        }
-        // how fast the axes are depends on where the part is
-        Claim::AdaptedFeed {
-            tolerance_mm,
-            tolerance_deg,
-            ..
-        } => Some(Claim::SamePath {
-            tolerance_mm: *tolerance_mm,
-            tolerance_deg: *tolerance_deg,
-        }),
-        claim if claim.is_rewrite() => None,
-        claim => Some(claim.clone()),
-    }
 }
 
 /// The proof with the values that the setup declares, all others at 0, and what was not declared.

@@ -9,8 +9,8 @@ use crate::run::Events;
 use std::collections::{BTreeMap, HashMap};
 use trunnion_interp::FaultKind;
 use trunnion_same::{
-    Claim, Difference, Input, Near, Steps, Stop, Verdict, only_by_chance, run_alike, undeclared, unrelated,
-    variables_differ,
+    Claim, Difference, Input, Near, Steps, Stop, Verdict, are_two_controls, only_by_chance, run_alike, undeclared,
+    unrelated, variables_differ,
 };
 use trunnion_syntax::BlockId;
 
@@ -162,7 +162,7 @@ fn by_chance(pair: &Pair<'_>, claim: &Claim, unset: &[FaultKind]) -> Option<Diff
     let [one, other] = &mut sides;
     let [mm, deg] = [claim.mm, claim.deg];
     match trunnion_same::compare(one, other, claim, &mut Near { mm, deg }) {
-        Verdict::Unknown(found) if !variables_differ(&found.what) => None,
+        Verdict::Unknown(found) if !are_two_controls(dialects) && !variables_differ(&found.what) => None,
         Verdict::Differs(found) | Verdict::Unknown(found) => Some(Difference {
             what: only_by_chance(unset),
             ..found

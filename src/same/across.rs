@@ -162,6 +162,11 @@ fn coupling(process: &Process) -> Coupling<'_> {
     }
 }
 
+/// Whether both motions are made while a cycle taps.
+pub(crate) fn are_taps(was: &Step, is: &Step) -> bool {
+    [was, is].iter().all(|step| coupling(&step.process) == Coupling::Tap)
+}
+
 /// How far a tap moves in a turn of the spindle, mm; negative: a left-hand thread. `None`: not known.
 fn pitch(step: &Step) -> Option<f64> {
     let words = step.process.get("cycle");
@@ -267,7 +272,7 @@ pub(crate) fn unlike_across(was: &Step, is: &Step) -> Option<Unlike> {
 
 /// Whether two programs are for controls that name what is in effect in other words, or read the same words otherwise. The general dialect of ISO 6983
 /// is no control of its own.
-pub(crate) fn are_two_controls(dialects: [&Dialect; 2]) -> bool {
+pub fn are_two_controls(dialects: [&Dialect; 2]) -> bool {
     let [a, b] = dialects;
     let forms = a.lex.format != b.lex.format || a.quirks.user_names() != b.quirks.user_names();
     forms || a.name != b.name && [a, b].iter().all(|dialect| dialect.name != "iso-6983")

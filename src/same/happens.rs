@@ -53,7 +53,8 @@ pub(crate) fn happens(was: &Item, is: &Item, claim: &Claim) -> Result<(), Verdic
             ))));
         }
     }
-    if let Some(found) = unlike(process, other_process, claim.across) {
+    // what is in effect is compared where the tool moves
+    if let Some(found) = unlike(process, other_process, false).filter(|_| !claim.across) {
         let what = format!(
             "{} differs at `{}`: {} and {}",
             found.key,

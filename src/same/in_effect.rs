@@ -1,6 +1,6 @@
 //! What must be in effect in both programs at two motions.
 use crate::Claim;
-use crate::across::{length_counts, unlike_across};
+use crate::across::{are_taps, length_counts, unlike_across};
 use crate::cut::feed_is_a_pitch;
 use crate::item::Step;
 use crate::motions::{Which, motion_difference};
@@ -55,7 +55,8 @@ pub(crate) fn in_effect(was: &Step, is: &Step, claim: &Claim) -> Result<(), Verd
             .is_some_and(|leg| leg.end.is_ok() && leg.open.is_none())
     };
     let which = Which {
-        feed: feed_counts,
+        // of taps on two controls the pitch is compared
+        feed: feed_counts && !(claim.across && are_taps(was, is)),
         tool_length: !claim.across || length_counts(a, b),
         posture: !(claim.across && posed(was) && posed(is)),
     };

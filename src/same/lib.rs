@@ -42,6 +42,7 @@ mod undeclared;
 mod unit;
 mod verdict;
 
+pub use across::are_two_controls;
 pub use change::{Change, Part};
 pub use changed::{Apart, compare_changed};
 pub use claim::Claim;

@@ -324,8 +324,7 @@ pub(crate) fn chains(program: &Program, settings: &Settings<'_>, named: &HashSet
     };
     let waits = |seen: &Seen| seen.waits || seen.is_code_alone(program);
     let mut open: Option<Chain> = None;
-    let mut stops = false;
-    let (mut at, mut moving, mut whole) = (0, 0, false);
+    let (mut at, mut moving, mut stops, mut whole) = (0, 0, false, false);
     let mut close = |open: &mut Option<Chain>, next: Option<&Seen>| {
         if let Some(mut chain) = open.take() {
             chain.next_line = next.filter(|next| next.is_line()).map(|next| next.block);
@@ -375,10 +374,9 @@ pub(crate) fn chains(program: &Program, settings: &Settings<'_>, named: &HashSet
         let Ok((start, end)) = one.ends else { continue };
         let line = Line { block: block.id(), end };
         let alone = core::mem::replace(&mut whole, has_whole_feed(&block, settings.dialect)) || whole;
+        let joins = one.goes_on && !alone && text == Text::Plain;
         match &mut open {
-            Some(chain) if one.goes_on && !alone && text == Text::Plain && chain.plane == one.plane => {
-                chain.lines.push(line);
-            }
+            Some(chain) if joins && chain.plane == one.plane => chain.lines.push(line),
             _ => {
                 close(&mut open, Some(one));
                 open = Some(Chain {

@@ -7,9 +7,14 @@ use trunnion_interp::{Setup, WorkOffset};
 
 /// The lines of a program, without block numbers.
 fn lines(text: &str) -> Vec<String> {
-    let numbered = |word: &&str| !word.strip_prefix('N').is_some_and(|rest| rest.parse::<u32>().is_ok());
+    let is_number = |word: &str| word.strip_prefix('N').is_some_and(|rest| rest.parse::<u32>().is_ok());
     text.lines()
-        .map(|line| line.split(' ').filter(numbered).collect::<Vec<_>>().join(" "))
+        .map(|line| {
+            line.split(' ')
+                .filter(|word| !is_number(word))
+                .collect::<Vec<_>>()
+                .join(" ")
+        })
         .collect()
 }
 

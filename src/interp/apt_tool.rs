@@ -82,6 +82,7 @@ impl Apt<'_> {
             .map(|n| n as u32);
         self.core.tools.end_cutter();
         self.core.forget_linear();
+        self.core.relocate(None);
         self.core.tools.load(number.map_or(Chosen::Unread, Chosen::Number));
         self.core.state.tool.load(number);
         let of = LengthOf::Tool(number);

@@ -147,11 +147,7 @@ impl<'d> Iso<'d> {
         if let Some(mode) = crate::feed_speed::meaning_of_feed(found.code) {
             self.feed_mode(mode);
         }
-        match found.code.group.as_deref() {
-            Some("feed-profile") => self.core.feed_profile = found.code.action != Action::NoMotion,
-            Some("feed-mode") => self.core.feed_mode_unread = found.code.action == Action::NotModelled,
-            _ => {}
-        }
+        self.note_group(found);
         let state = &mut self.core.state;
         self.core.unknown.restore_known(found.code);
         match found.code.action {
@@ -336,7 +332,10 @@ impl<'d> Iso<'d> {
         if wants_number && !words.length_offset.is_given() && self.lacks_length_number() {
             report.fault(found.range, FaultKind::TcpState(TcpMistake::NoLengthNumber));
         }
-        if words.length_offset.is_given() || wants_number {
+        let user_task = self.core.dialect.quirks.user_task();
+        if wants_number && user_task && !words.length_offset.is_given() {
+            self.tip_length_unstated(found, report);
+        } else if words.length_offset.is_given() || wants_number {
             self.length_on(words.length_offset, found.range, report);
         }
         self.tcp_on(found.code, found.code.action == Action::TcpVectorOn, report);

@@ -40,6 +40,8 @@ pub(crate) struct Core<'d> {
     pub(crate) effects: Effects,
     /// How often everything may have changed: missing programs, words that are not understood.
     pub(crate) losses: u64,
+    /// How often the machine has moved without a motion: tool changes.
+    pub(crate) relocations: u32,
     /// F has a value that is not evaluated.
     pub(crate) feed_unread: bool,
     /// The feed changes along each motion (FLIN, FCUB, FPO of a Sinumerik).
@@ -121,6 +123,7 @@ impl<'d> Core<'d> {
             unknown: Unknown::default(),
             effects: Effects::default(),
             losses: 0,
+            relocations: 0,
             feed_unread: false,
             feed_profile: false,
             overridden: (false, false),
@@ -175,6 +178,12 @@ impl<'d> Core<'d> {
     pub(crate) fn forget_linear(&mut self) {
         self.state.position.known &= !LINEAR;
         self.standing.hold(&mut self.state.position);
+    }
+    /// The machine moves its linear axes without a motion: to that place, which the caller sets, or nobody knows where.
+    pub(crate) fn relocate(&mut self, place: Option<&Position>) {
+        if place.is_none_or(|place| place.known != 0) {
+            self.relocations = self.relocations.wrapping_add(1);
+        }
     }
     /// A subprogram may have changed anything.
     pub(crate) fn forget_everything(&mut self) {
@@ -297,6 +306,7 @@ impl<'d> Core<'d> {
             tool: state.tool.number(),
             tilt: Tilt::default(),
             effects: self.effects.count(),
+            relocations: self.relocations,
             slack_mm: 0.0,
         }
     }

@@ -2,6 +2,7 @@
 //! rest is a [`Shape`] between the words and the work coordinates in which motions are expressed.
 #[cfg(test)]
 mod agree_tests;
+mod axial_shift;
 mod data_entry;
 mod feature;
 mod increments;
@@ -18,6 +19,7 @@ mod swivel_call;
 mod tilt;
 mod turn;
 
+pub(crate) use axial_shift::ShiftParts;
 pub(crate) use data_entry::OffsetValues;
 pub(crate) use linear::Linear;
 pub(crate) use polar::Polar;
@@ -71,6 +73,8 @@ pub(crate) struct Frames {
     pub(crate) shift: [f64; 9],
     /// G52.
     pub(crate) local: [f64; 9],
+    /// How that is divided on a Sinumerik.
+    pub(crate) parts: ShiftParts,
     /// Offset of all zero points, written by G10 L2 P0.
     pub(crate) external: [f64; 9],
     /// Axes in which the program has written it, bits as in [`crate::Position::known`].

@@ -205,7 +205,7 @@ impl<'d> Iso<'d> {
         if block.machine_coordinates {
             self.length_after_return(words.axes.given | words.axes.unread);
         }
-        self.called_cycle(codes, words, &block, &mut motion, report);
+        self.called_motions(codes, words, &block, &mut motion, report);
         self.block_rules(codes, words, report);
         self.spindle_after(&block);
         if words.forgets_all {

@@ -83,6 +83,8 @@ pub(crate) struct Memory {
     polar_radius: Option<f64>,
     /// Direction of the last motion, in the coordinates of the words.
     heading: Option<Vec3>,
+    /// Coordinates that M91 has given last, mm and degrees from the machine's zero.
+    m91: [Option<f64>; 9],
     /// TOOL CALL has named the tool axis.
     has_tool_axis: bool,
     /// The last block with effects had a surface normal.

@@ -45,6 +45,8 @@ pub(crate) struct Memory<'d> {
     pub(crate) length_open: Option<crate::length_change::Open>,
     /// The zero point that is in effect again after this block: its name, its values, the axes for which it is not declared.
     pub(crate) zero_after: Option<ZeroBefore>,
+    /// A Sinumerik program has written values of the work offset in effect, and not selected it since.
+    pub(crate) offset_open: Option<crate::sinumerik::Rewritten>,
     pub(crate) before_cycle: Option<Action>,
     /// Coordinates that the program shifts and turns.
     pub(crate) frames: crate::frames::Frames,

@@ -21,6 +21,9 @@ impl<F: FnMut(TextRange, FaultKind)> Reader<'_, '_, F> {
         let variable = self.dialect.quirks.user_names() || matches!(name.first(), Some(b'#' | b'$'));
         // FL[X]= and PO[X]= are FL and PO of an axis
         let stem = name.split(|byte| *byte == b'[').next().unwrap_or_default().trim_ascii();
+        if self.axis_by_index((stem, name.get(stem.len()..).unwrap_or_default().trim_ascii()), word) {
+            return;
+        }
         let positions = stem.eq_ignore_ascii_case(b"SPOS") || stem.eq_ignore_ascii_case(b"SPOSA");
         let index = name.get(stem.len()..).unwrap_or_default().trim_ascii();
         // SPOS[2] is another spindle

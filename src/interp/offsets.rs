@@ -105,6 +105,9 @@ impl<'d> Iso<'d> {
 
     /// Selects a zero point; shifts by the program (G52, G92) are added to it.
     pub(crate) fn set_zero(&mut self, name: Option<Arc<str>>, zero: OffsetValues) {
+        if self.memory.offset_open == Some(crate::sinumerik::Rewritten::Before) {
+            self.memory.offset_open = None;
+        }
         self.frames_move(|iso| {
             iso.core.state.zero.choose(name, Undeclared::ALL_ZEROS & !zero.known);
             iso.memory.frames.selected = zero.values;

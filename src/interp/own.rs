@@ -3,6 +3,7 @@
 //! Sinumerik 840D sl Programming Manual, Job Planning (variables; arithmetic operations and functions): INT variables are rounded when
 //! they are written, a variable of DEF is zero before that and local to its program, R parameters are not. Expressions:
 //! [`trunnion_formula::sinumerik`].
+mod axis;
 mod field;
 mod named;
 mod prepared;
@@ -33,6 +34,8 @@ pub(crate) struct Scope {
     strings: strings::Strings,
     /// Variables of the type FRAME; `None`: what they hold is not known.
     pub(crate) frames: BTreeMap<Box<str>, Option<crate::sinumerik::FrameValue>>,
+    /// Variables of the type AXIS: the letter of the axis; `None`: which one is not known.
+    axes: BTreeMap<Box<str>, Option<u8>>,
 }
 
 /// See the module.
@@ -100,6 +103,8 @@ pub(crate) struct Own {
     pub(crate) plane_letters: [u8; 3],
     /// The number of the spindle to which S and M3 belong, where it is known.
     pub(crate) main_spindle: Option<u32>,
+    /// Codes of G groups that the program reads with $P_GG.
+    pub(crate) groups: crate::sinumerik::Groups,
     /// ORIMKS: tool vectors are in the axes of the machine.
     pub(crate) machine_vectors: bool,
     /// Names that EXTERN declares as subprograms.
@@ -126,6 +131,7 @@ impl Own {
         self.changes += 1;
         self.lost = Some("jumps or calls before it are not followed");
         self.contour.euler = false;
+        self.groups = crate::sinumerik::Groups::default();
         let known = self.known();
         if !known.is_empty() {
             self.before_loss = known;
@@ -134,6 +140,7 @@ impl Own {
         self.others.clear();
         self.scope.values.clear();
         self.scope.frames.values_mut().for_each(|frame| *frame = None);
+        self.scope.axes.values_mut().for_each(|axis| *axis = None);
         self.lose_fields();
         self.lose_texts();
     }
@@ -167,16 +174,6 @@ impl Own {
             .iter()
             .map(|(name, text)| Argument::text(name.to_string(), text));
         values.chain(texts).collect()
-    }
-    /// A subprogram begins with its own variables; returns those of the caller.
-    pub(crate) fn begin_scope(&mut self) -> Scope {
-        self.changes += 1;
-        std::mem::take(&mut self.scope)
-    }
-    /// The caller continues with its variables; returns those of the subprogram.
-    pub(crate) fn end_scope(&mut self, caller: Scope) -> Scope {
-        self.changes += 1;
-        std::mem::replace(&mut self.scope, caller)
     }
     /// `R5`, `R[2+3]`, `_HOME` = a value.
     pub(crate) fn assign(&mut self, name: &str, value: Option<f64>) {
@@ -259,7 +256,8 @@ impl Own {
             }
             let is_field = one.split('=').next().is_some_and(|name| name.contains('['));
             let known = if is_field {
-                self.define_field(sort, one)
+                // fields of CHAR are texts
+                self.define_field(if sort == Sort::Char { Sort::Other } else { sort }, one)
             } else {
                 self.declare(name, sort, value);
                 value.is_some() && sort != Sort::Other
@@ -271,6 +269,9 @@ impl Own {
                 }
                 self.misfit(name, given, value)
             }));
+            if kind.eq_ignore_ascii_case("AXIS") && !is_field {
+                self.declare_axis(name, given);
+            }
             if is_of_text(kind) {
                 self.declare_string(kind, name, given);
             }
@@ -279,13 +280,6 @@ impl Own {
             }
         }
         wrong
-    }
-    /// `EXTERN GROOVE(REAL)`: everything after EXTERN.
-    pub(crate) fn declare_subprogram(&mut self, text: &str) {
-        let is_name = |c: char| c.is_ascii_alphanumeric() || c == '_';
-        let name = text.trim().split(|c| !is_name(c)).next().unwrap_or_default();
-        let name: Box<str> = name.to_ascii_uppercase().into();
-        self.declared.insert(name);
     }
     /// The value of an expression; `None`: it is not known, or not of this language.
     pub(crate) fn value(&self, text: &str) -> Option<f64> {

@@ -3,7 +3,7 @@ use crate::codes::Found;
 use crate::core::{LINEAR, ROTARY, Report};
 use crate::iso::Iso;
 use crate::words::Words;
-use crate::{FaultKind, Motion, Orientation, Position, TcpMistake};
+use crate::{FaultKind, LengthOf, Motion, Orientation, Position, TcpMistake};
 use trunnion_dialect::{Action, Code, CodeKind};
 
 impl<'d> Iso<'d> {
@@ -40,6 +40,15 @@ impl<'d> Iso<'d> {
             self.core.forget_linear();
             self.memory.tip_length_open = Some(code);
         }
+    }
+
+    /// Whether G169 of an Okuma without H guides the tip with the length in effect is not stated by a source (posts always write H): the length is unknown.
+    /// The positions of the tip are those that the program says.
+    pub(crate) fn tip_length_unstated(&mut self, found: &Found<'d>, report: &mut Report<'_>) {
+        let what = format!("{} without H: whether the tool length in effect applies", found.code.id);
+        report.fault(found.range, FaultKind::NotModelled { what });
+        let length = &mut self.core.state.length;
+        length.set_undeclared(length.mm().unwrap_or(0.0), LengthOf::Other);
     }
 
     /// A word whose end is hidden moves its axis. Of the length after tip control the first motion for which it matters says so.

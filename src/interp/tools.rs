@@ -212,7 +212,9 @@ impl Iso<'_> {
     pub(crate) fn change_tool(&mut self, words: &Words, report: &mut Report<'_>) {
         // where the block moves too, the order of both is not known
         let declared = self.core.setup.control.tool_change;
-        match declared.filter(|_| !words.axes.any() && !self.core.state.tool_axis.tcp()) {
+        let declared = declared.filter(|_| !words.axes.any() && !self.core.state.tool_axis.tcp());
+        self.core.relocate(declared.as_ref());
+        match declared {
             Some(place) => self.stands_at(&place),
             None => self.core.forget_linear(),
         }
@@ -267,6 +269,7 @@ impl Iso<'_> {
         }
         if before != self.core.state.length.of() {
             // the axes stand still, or travel the change of length, which is unknown
+            self.core.relocate(None);
             self.core.forget_linear();
         }
     }

@@ -9,6 +9,7 @@ pub(crate) mod line_cache;
 pub(crate) mod lookahead;
 pub(crate) mod posture_rule;
 pub(crate) mod reference;
+pub(crate) mod relocation;
 pub(crate) mod requests;
 pub(crate) mod rotary_way;
 pub(crate) mod row;

@@ -2,7 +2,7 @@
 use super::over_view;
 use crate::look::{Look, at_most};
 use crate::view::LegView;
-use trunnion_interp::{MotionKind, Orientation};
+use trunnion_interp::{MotionKind, Orientation, Swivel};
 use trunnion_machine::Stance;
 
 /// A feed motion between two known positions.
@@ -50,7 +50,7 @@ macro_rules! cuts {
 }
 
 cuts! {
-    /// A cut that may leave the programmed segment by more than the tolerance; not an arc whose centre a fault removed.
+    /// A cut that may leave the programmed segment by more than the tolerance, or that runs point to point; not an arc whose centre a fault removed.
     StrayingCut:
         |look| look.cut && look.leaves(|bounds| !at_most(bounds.stray_mm, look.of.machine.tolerances.tip_mm)),
         |cut| !matches!(cut.motion().kind, MotionKind::Arc(None)) && !cut.lever_is_undeclared();
@@ -60,10 +60,13 @@ cuts! {
             look.of.machine.tolerances.feed_drop_warning > 1.0 || !at_most(bounds.axes_s, look.seconds)
         }),
         |_cut| true;
-    /// A turning cut between tool vectors.
+    /// A turning cut between tool vectors, whose path between them the program prescribes.
     VectorCut:
         |look| look.turning_cut && matches!(look.leg.motion.orientation, Orientation::Vector(..)),
-        |cut| cut.rotary_turns() && matches!(cut.motion().orientation, Orientation::Vector(..));
+        |cut| {
+            let led = cut.motion().tilt.swivel != Swivel::PointToPoint;
+            led && cut.rotary_turns() && matches!(cut.motion().orientation, Orientation::Vector(..))
+        };
     /// A cut on a machine whose file says how well an axis is known.
     UncertainCut: |look| look.cut && look.of.uncertain, |cut| !cut.lever_is_undeclared();
 }

@@ -25,7 +25,8 @@
 //! tolerance but the bound does not prove it, and where a motion is not modelled. The deviation is the distance to
 //! the programmed segment: the line between the tips at both ends in the workpiece, or the arc in its position in
 //! the workpiece at the start of the block, with its end carried linearly to where the tip ends. With tool centre
-//! point control the control keeps the tip on its path. Up to 8 consecutive blocks are reported one by one; a
+//! point control the control keeps the tip on its path. A feed motion that runs point to point (PTP of a Sinumerik) has
+//! no programmed path; it is named once as information. Up to 8 consecutive blocks are reported one by one; a
 //! longer run is reported as one finding with its worst block.
 //!
 //! # Thresholds
@@ -35,6 +36,7 @@
 //! * docs/kinematics.md#between-the-ends-of-a-block
 //! * docs/kinematics.md#deviation-of-the-tip
 use crate::prelude::*;
+use trunnion_interp::Swivel;
 
 pub(super) const RULE: Body = Body::sound(Error, &[Wake::StrayingCut(check)]);
 
@@ -42,8 +44,12 @@ pub(super) const RULE: Body = Body::sound(Error, &[Wake::StrayingCut(check)]);
 const NOT_MODELLED: u64 = 0;
 const FOUND: u64 = 1;
 const BETWEEN: u64 = 2;
+const POINT_TO_POINT: u64 = 3;
 
 fn check(cut: &facts::StrayingCut<'_>, out: &mut Reporter<'_>) {
+    if cut.motion().tilt.swivel == Swivel::PointToPoint {
+        return point_to_point(cut, out);
+    }
     let tolerance = cut.machine.tolerances.tip_mm;
     let Some(deviation) = cut.deviation() else {
         return out.unknown(cut, Merge::once(NOT_MODELLED), |draft| {
@@ -90,6 +96,26 @@ fn check(cut: &facts::StrayingCut<'_>, out: &mut Reporter<'_>) {
     }
 }
 
+/// Under PTP the program asks for no straight path of the tip.
+fn point_to_point(cut: &facts::StrayingCut<'_>, out: &mut Reporter<'_>) {
+    let Some(deviation) = cut
+        .deviation()
+        .filter(|deviation| deviation.bound_mm > cut.machine.tolerances.tip_mm)
+    else {
+        return;
+    };
+    out.finding(cut, Merge::run(POINT_TO_POINT, deviation.sampled_mm), |draft| {
+        draft
+            .severity(Info)
+            .say("this feed motion runs point to point (PTP): the tip does not go straight to the end of the block")
+            .note(format!(
+                "the axes move linearly; the tip leaves the straight line by at most {}",
+                bound_mm(deviation.bound_mm)
+            ))
+            .help("program CP before a cut that must be straight");
+    });
+}
+
 #[cfg(test)]
 mod tests {
     use crate::fixture::{assert_drawn, check_on};
@@ -108,6 +134,17 @@ mod tests {
         assert_eq!(status(29.3), Some(crate::Status::Fail));
         assert_eq!(status(29.304_262), Some(crate::Status::Unknown));
         assert_eq!(status(29.31), None);
+    }
+
+    /// PTP asks for no straight path: the cut is named, and is no mistake.
+    #[test]
+    fn a_cut_from_point_to_point_is_information() {
+        let report = assert_drawn(
+            "gcode sinumerik-840d mikron-ucp710",
+            "TRAORI\nG0 X0 Y0 Z50 A-10 C20\nPTP\nG1 X10 Y5 Z20 A-20 C30 F1000\n;^^^^^^^^^^^^^^^^^^^^^^^^^^^ path-deviation: this feed motion runs point to point\nCP\nTRAFOOF\nM30\n",
+        );
+        assert_eq!(report.diagnostics[0].severity, crate::Severity::Info);
+        assert_eq!(report.diagnostics[0].status, crate::Status::Fail);
     }
 
     #[test]

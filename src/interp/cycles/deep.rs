@@ -103,11 +103,9 @@ fn depths(total: f64, first: f64, degression: f64, least: f64) -> Result<Vec<f64
         let left = total - done;
         let mut next = (step * factor - degression.max(0.0)).max(smallest);
         let rest = left - next;
-        if rest <= TINY {
+        if rest <= TINY || halved {
+            // of what is halved the second half is the last step
             next = left;
-        } else if halved {
-            // only what is left after the half is documented
-            return Err(depths.len());
         } else if rest < smallest - TINY {
             if degression > 0.0 && left > 2.0 * degression + TINY {
                 next = left - degression;
@@ -213,6 +211,8 @@ mod tests {
         // a factor, and the least step
         near(depths(10.0, 4.0, -0.5, 1.5), &[4.0, 6.0, 7.5, 8.75, 10.0]);
         near(depths(4.887, 2.0, -1.0, 2.0), &[2.0, 3.4435, 4.887]);
+        // a rest smaller than the least step: both halves of what is left
+        near(depths(20.0, 10.0, -0.8, 3.0), &[10.0, 15.0, 20.0]);
         // steps that stay
         near(depths(15.0, 5.0, 0.0, 0.0), &[5.0, 10.0, 15.0]);
         near(depths(3.0, 5.0, 0.0, 0.0), &[3.0]);

@@ -39,6 +39,15 @@ impl OffsetValues {
 }
 
 impl crate::frames::Frames {
+    /// The program writes a work offset, which need not come into force.
+    pub(crate) fn remember_offset(&mut self, name: &str, zero: OffsetValues) {
+        let written = &mut self.written;
+        match written.iter_mut().find(|(known, _)| **known == *name) {
+            Some(known) => known.1 = zero,
+            None => written.push((name.into(), zero)),
+        }
+    }
+
     /// Values of a work offset: written by the program, else declared.
     pub(crate) fn offset_values(&self, name: &str, setup: &Setup) -> Option<OffsetValues> {
         let same = |known: &str| known.eq_ignore_ascii_case(name);
@@ -150,11 +159,7 @@ impl<'d> Iso<'d> {
 
     /// The program writes a work offset; it acts at once if it is active.
     pub(crate) fn store_offset(&mut self, name: &str, zero: OffsetValues) {
-        let written = &mut self.memory.frames.written;
-        match written.iter_mut().find(|(known, _)| **known == *name) {
-            Some(known) => known.1 = zero,
-            None => written.push((name.into(), zero)),
-        }
+        self.memory.frames.remember_offset(name, zero);
         let in_force = match self.core.state.zero.offset() {
             Some(known) => known.eq_ignore_ascii_case(name),
             None => self.core.dialect.quirks.first_offset_at_start && name == "G54",

@@ -61,7 +61,11 @@ impl<'d> Iso<'d> {
 
     fn change_frame(&mut self, found: &Found<'d>, words: &Words, block: &mut BlockCodes, report: &mut Report<'_>) {
         block.takes_coordinates = true;
+        if matches!(found.code.id.as_str(), "G58" | "G59") {
+            return self.axial_shift(found, words, block, report);
+        }
         let added = found.code.id.starts_with('A');
+        let keeps_part = !added && self.replaces_fine_part();
         let in_swivel = self.memory.frames.swivel.is_some();
         if in_swivel && (self.memory.compensation.is_busy() || self.memory.corners.is_busy()) {
             let what = "a frame in a swivelled plane under cutter compensation, or inside a corner".to_owned();
@@ -81,6 +85,7 @@ impl<'d> Iso<'d> {
         let tcp = self.core.state.tool_axis.tcp();
         let is_shift = matches!(found.code.id.as_str(), "TRANS" | "ATRANS");
         let plain = words.axes.unread == 0
+            && !keeps_part
             && !((tcp || in_swivel) && turns)
             && (is_shift || !turns)
             && !self.core.unknown.any()
@@ -99,6 +104,10 @@ impl<'d> Iso<'d> {
             }
             return;
         };
+        if let (true, FrameStep::Shift(by)) = (added, &step) {
+            let plain = self.memory.frames.shape.linear.is_none() && !self.is_solid();
+            self.memory.frames.parts.add(by, plain);
+        }
         if self.is_solid() {
             self.memory.frames.must_be_absolute |= LINEAR;
             let position = self.core.state.position;
@@ -194,6 +203,7 @@ impl<'d> Iso<'d> {
     pub(super) fn end_programmable(&mut self) {
         self.end_solid();
         self.memory.frames.local = [0.0; 9];
+        self.memory.frames.parts = super::ShiftParts::default();
         self.set_linear(None);
         self.refresh_zero();
     }

@@ -18,6 +18,8 @@ use trunnion_geometry::{Mat3, Vec3};
 pub(crate) struct FrameValue {
     pub(crate) turn: Mat3,
     pub(crate) shift: Vec3,
+    /// A part of the shift is a fine one (CFINE): how it is divided is not followed.
+    pub(crate) fine: bool,
 }
 
 impl Default for FrameValue {
@@ -25,13 +27,18 @@ impl Default for FrameValue {
         Self {
             turn: Mat3::identity(),
             shift: Vec3::zeros(),
+            fine: false,
         }
     }
 }
 
 impl FrameValue {
     pub(crate) fn new(turn: Mat3, shift: Vec3) -> Self {
-        Self { turn, shift }
+        Self {
+            turn,
+            shift,
+            fine: false,
+        }
     }
     pub(crate) fn turn(&self) -> Mat3 {
         self.turn
@@ -43,6 +50,7 @@ impl FrameValue {
         Self {
             turn: self.turn * inner.turn,
             shift: self.shift + self.turn * inner.shift,
+            fine: self.fine || inner.fine,
         }
     }
     pub(crate) fn turns(&self) -> bool {

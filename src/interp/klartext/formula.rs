@@ -38,22 +38,26 @@ struct Operand {
     loose: bool,
     /// A power: what an operator before it acts on.
     power: bool,
+    /// A remainder: what any operator beside it acts on.
+    remainder: bool,
 }
 
 /// Two operands with `+` or `-` between them: what is in them comes first.
 fn added(first: &Operand, second: &Operand, of: impl Fn(f64, f64) -> f64) -> Operand {
-    let value = first.value.zip(second.value);
+    let known = !first.remainder && !second.remainder;
+    let value = first.value.zip(second.value).filter(|_| known);
     Operand {
         value: value.map(|(a, b)| of(a, b)).filter(|value| value.is_finite()),
-        stops: first.stops.or(second.stops),
+        stops: first.stops.or(second.stops).filter(|_| known),
         loose: false,
         power: false,
+        remainder: !known,
     }
 }
 
 /// Two operands with `*` or `/` between them.
 fn joined(first: &Operand, second: &Operand, of: impl Fn(f64, f64) -> f64) -> Operand {
-    let known = !first.loose && !second.power;
+    let known = !first.loose && !second.power && !first.remainder;
     let value = first.value.zip(second.value).filter(|_| known);
     Operand {
         value: value.map(|(a, b)| of(a, b)).filter(|value| value.is_finite()),
@@ -61,13 +65,27 @@ fn joined(first: &Operand, second: &Operand, of: impl Fn(f64, f64) -> f64) -> Op
         stops: first.stops.or(second.stops).filter(|_| known),
         loose: second.loose,
         power: false,
+        remainder: first.remainder,
+    }
+}
+
+/// The remainder of a division. What it is of negative numbers, and what comes first of it and another operator, is not taken from a source.
+fn remainder(first: &Operand, second: &Operand, alone: bool) -> Operand {
+    let plain = |operand: &Operand| alone && !operand.loose && !operand.power && !operand.remainder;
+    let value = first.value.zip(second.value);
+    let value = value.filter(|(a, b)| plain(first) && plain(second) && *a >= 0.0 && *b > 0.0);
+    Operand {
+        value: value.map(|(a, b)| a % b).filter(|value| value.is_finite()),
+        remainder: true,
+        ..Operand::default()
     }
 }
 
 /// The same for a division.
 fn divided(first: &Operand, second: &Operand) -> Operand {
     let mut found = joined(first, second, |a, b| a / b);
-    let by_zero = second.value == Some(0.0) && first.value.is_some() && !first.loose && !second.power;
+    let known = !first.loose && !second.power && !first.remainder;
+    let by_zero = second.value == Some(0.0) && first.value.is_some() && known;
     if by_zero {
         found.stops = Some(BY_ZERO);
     }
@@ -111,14 +129,20 @@ impl Formula<'_, '_, '_> {
 
     fn product(&mut self) -> Result<Operand, String> {
         let mut first = self.power()?;
+        let mut alone = true;
         loop {
             let divides = if self.next_is(b'*') {
                 false
             } else if self.next_is(b'/') {
                 true
+            } else if self.next_is(b'%') {
+                let second = self.power()?;
+                first = remainder(&first, &second, alone);
+                continue;
             } else {
                 return Ok(first);
             };
+            alone = false;
             let second = self.power()?;
             first = if divides {
                 divided(&first, &second)
@@ -143,6 +167,7 @@ impl Formula<'_, '_, '_> {
             stops: base.stops.or(exponent.stops).filter(|_| known),
             loose: true,
             power: true,
+            remainder: false,
         })
     }
 
@@ -232,6 +257,7 @@ impl Formula<'_, '_, '_> {
             stops: inner.stops.or(without),
             loose: !closed,
             power: false,
+            remainder: false,
         })
     }
 }
@@ -326,6 +352,9 @@ mod tests {
             ("NEG 2 + 3", 1.0),
             ("INT 2,7 + 1", 3.0),
             ("SGN -4", -1.0),
+            ("17 % 5", 2.0),
+            ("Q1 + ( 400 % 360 )", 45.0),
+            ("17,5 % Q1", 2.5),
         ] {
             let found = value(text).expect(text).expect(text);
             assert!((found - expected).abs() < 1e-12, "{text}: {found}");
@@ -339,6 +368,15 @@ mod tests {
             "SGN ( 1 - 1 )",
             "2 * 3 ^ 2",
             "- 3 ^ 2",
+            "17 % 5 + 1",
+            "1 + 17 % 5",
+            "17 % 5 * 2",
+            "2 * 17 % 5",
+            "17 % 5 % 2",
+            "Q2 % 5",
+            "17 % Q2",
+            "17 % 0",
+            "SQRT 16 % 3",
             "-3 ^ 2",
             "TONUMB ( SRC_QS1 )",
             "INSTR ( SRC_QS1 SEA_QS2 BEG0 ) + 1",

@@ -7,6 +7,9 @@ use crate::{FaultKind, Feed, MotionKind, Orientation, Position};
 use trunnion_geometry::Vec3;
 use trunnion_syntax::TextRange;
 
+/// Places that differ by no more than this are one, mm or degrees: sums of offsets are rounded.
+const SAME_PLACE: f64 = 1e-9;
+
 impl Klartext<'_> {
     /// M91 and M92: from the machine's zero; from a point that only the builder knows.
     pub(super) fn machine_motion(&mut self, words: &PathWords, rapid: bool, report: &mut Report<'_>) {
@@ -17,13 +20,22 @@ impl Klartext<'_> {
         let mut end = start;
         self.place(words, &mut end);
         let ways = self.rotary_ways(words, [&start, &end], report);
-        if words.incremental != 0 {
-            // from the last M91 position
-            end.known &= !words.incremental;
+        for axis in (0..9).filter(|axis| words.incremental & (1 << axis) != 0) {
+            // from the last M91 position; where the axis has left it since, the distance may count from either place
+            let last = self.memory.m91[axis].filter(|_| !builder);
+            let stands = last
+                .zip(start.get(axis))
+                .is_some_and(|(last, at)| (last - at).abs() <= SAME_PLACE);
+            if !stands {
+                end.forget(axis);
+            }
         }
         if builder {
             self.not_modelled_once("M92: the point of the machine builder", report);
             end.known &= !words.given;
+        }
+        for axis in (0..9).filter(|axis| words.given & (1 << axis) != 0 && !builder) {
+            self.memory.m91[axis] = end.get(axis);
         }
         let mut back = end;
         self.to_machine(&mut back, -1.0);

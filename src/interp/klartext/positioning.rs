@@ -34,7 +34,7 @@ impl Klartext<'_> {
             feed: Feed::Unknown,
             turns_table: false,
         };
-        let (mut says_how, mut says_feed, mut symmetric) = (false, false, false);
+        let (mut says_how, mut says_feed, mut symmetric, mut at_limit) = (false, false, false, false);
         let (mut retract, mut shift) = (None, Some(0.0));
         while let Some(word) = words.next() {
             says_how |= matches!(word.name(), b"MOVE" | b"TURN" | b"STAY");
@@ -49,6 +49,7 @@ impl Klartext<'_> {
                     self.memory.unfollowed = true;
                     // MAX is the limit of the axis, which is not known here
                     let most = word.value == Said::Nothing && words.takes_word("MAX");
+                    at_limit |= most;
                     retract = Some(if most { None } else { self.said(word.value, report) });
                 }
                 b"DIST" | b"ABST" => (shift, self.memory.unfollowed) = (self.said(word.value, report), true),
@@ -78,6 +79,12 @@ impl Klartext<'_> {
         if positioning.swivel == Some(Swivel::TipStays) && shift != Some(0.0) {
             self.not_modelled_once("PLANE MOVE with DIST: the way of the linear axes", report);
             positioning.swivel = Some(Swivel::AxesLost);
+        }
+        if at_limit {
+            self.not_modelled_once(
+                "PLANE with MB MAX: where the retract to the limit of the axis ends",
+                report,
+            );
         }
         if let Some(distance) = retract {
             let unit = self.core.state.coordinates.unit_mm();

@@ -261,7 +261,10 @@ impl Klartext<'_> {
         for &code in words.codes() {
             match code {
                 3 | 4 | 13 | 14 => self.core.state.spindle.switch(true),
-                6 => self.core.forget_linear(),
+                6 => {
+                    self.core.relocate(None);
+                    self.core.forget_linear();
+                }
                 89 => {
                     self.memory.runs_after_each = true;
                     let what = "M89: a machine parameter decides whether it calls the cycle (MP 7440 of the TNC 426)";

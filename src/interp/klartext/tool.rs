@@ -223,6 +223,7 @@ impl Klartext<'_> {
         let declared = self.core.setup.control.tool_change.filter(|_| plain);
         let before = self.core.state.length;
         self.load_tool(chosen, delta, report);
+        self.core.relocate(declared.as_ref());
         match declared {
             Some(place) => self.stands_at(&place, &before),
             None => self.core.forget_linear(),

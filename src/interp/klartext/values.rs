@@ -70,6 +70,7 @@ impl Parameters {
             None if parameter.kind == Kind::Global && (100..200).contains(&parameter.number) => {
                 format!("{parameter}: a value of the control")
             }
+            None if self.text(parameter).is_some() => format!("{parameter}: functions of texts are not followed"),
             None => format!("{parameter}: the program does not set its value"),
         }
     }

@@ -18,6 +18,13 @@ pub(super) fn is_variable_name(name: &str) -> bool {
 }
 
 impl Own {
+    /// `EXTERN GROOVE(REAL)`: everything after EXTERN.
+    pub(crate) fn declare_subprogram(&mut self, text: &str) {
+        let is_name = |c: char| c.is_ascii_alphanumeric() || c == '_';
+        let name = text.trim().split(|c| !is_name(c)).next().unwrap_or_default();
+        let name: Box<str> = name.to_ascii_uppercase().into();
+        self.declared.insert(name);
+    }
     /// What the settings declare: R parameters of a Sinumerik, common variables of an Okuma.
     pub(crate) fn take_declared(&mut self, declared: &crate::NamedVariables) {
         for (name, value) in &declared.0 {

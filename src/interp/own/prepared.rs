@@ -177,7 +177,7 @@ impl Own {
     /// The value of a name with indices that is evaluated here; `None`: the formula reads it itself.
     fn indexed(&self, name: &str, inside: &str, nested: u32) -> Option<Evaluated> {
         let parts = arguments(inside);
-        if name.starts_with('$') {
+        if name.starts_with('$') || self.scope.frames.contains_key(name) {
             return Some(Evaluated(self.of_control(name, &parts, nested)));
         }
         if parts.len() < 2 || !self.scope.sorts.contains_key(name) {

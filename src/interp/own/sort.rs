@@ -7,6 +7,8 @@ pub(crate) enum Sort {
     Real,
     Int,
     Bool,
+    /// The code of a character.
+    Char,
     /// A string, frame, axis or array: no number.
     Other,
 }
@@ -24,7 +26,7 @@ impl Sort {
             ("REAL", Self::Real),
             ("INT", Self::Int),
             ("BOOL", Self::Bool),
-            ("CHAR", Self::Other),
+            ("CHAR", Self::Char),
             ("STRING", Self::Other),
             ("AXIS", Self::Other),
             ("FRAME", Self::Other),
@@ -40,6 +42,7 @@ impl Sort {
             Self::Real => Some(value),
             Self::Int => rounded(value).filter(|value| value.abs() < 2_147_483_648.0),
             Self::Bool => Some(f64::from(u8::from(value != 0.0))),
+            Self::Char => Some(value).filter(|value| value.fract() == 0.0 && (0.0..=255.0).contains(value)),
             Self::Other => None,
         }
     }

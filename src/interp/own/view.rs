@@ -21,11 +21,25 @@ pub(super) struct View<'a> {
 }
 
 impl Own {
+    /// A subprogram begins with its own variables; returns those of the caller.
+    pub(crate) fn begin_scope(&mut self) -> Scope {
+        self.changes += 1;
+        std::mem::take(&mut self.scope)
+    }
+    /// The caller continues with its variables; returns those of the subprogram.
+    pub(crate) fn end_scope(&mut self, caller: Scope) -> Scope {
+        self.changes += 1;
+        std::mem::replace(&mut self.scope, caller)
+    }
     /// How many entries of lists that grow with the program a clone copies.
     pub(crate) fn copied(&self) -> usize {
         let scope = &self.scope;
-        let declared =
-            scope.sorts.len() + scope.values.len() + scope.fields.len() + scope.frames.len() + self.texts_held();
+        let declared = scope.sorts.len()
+            + scope.values.len()
+            + scope.fields.len()
+            + scope.frames.len()
+            + scope.axes.len()
+            + self.texts_held();
         let values = self.parameters.len() + self.others.len() + self.texts.len() + self.before_loss.len();
         let task = self
             .task

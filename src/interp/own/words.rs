@@ -78,6 +78,7 @@ impl<F: FnMut(TextRange, FaultKind)> Reader<'_, '_, F> {
             }
             if number.is_none() {
                 own.note_text(name, &text);
+                own.assign_axis(name, &text);
             }
             let joined = own.text_for(name, &text);
             own.assign(name, number);

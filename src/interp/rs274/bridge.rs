@@ -106,8 +106,7 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
         }
         let block = self.block(at);
         let mut start = shift.programmed(&self.calls.machine);
-        let [mut end, mut machine] = ends;
-        let mut kind = kind;
+        let ([mut end, mut machine], mut kind) = (ends, kind);
         // an axis that the machine lacks does not move
         let standing = self.core.standing.absent();
         standing.hold(&mut start);
@@ -169,6 +168,7 @@ impl<S: Sink> Bridge<'_, '_, '_, S> {
             radii: state.lathe_diameter || core.setup.control.x_diameter,
             tool: modal.tool.number(),
             tilt: crate::Tilt::default(),
+            relocations: 0,
             effects: core.effects.count(),
             slack_mm: self.calls.slack_mm,
         };

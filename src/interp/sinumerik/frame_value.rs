@@ -1,22 +1,32 @@
 //! Frames as values: `F1=CTRANS(X,10):CROT(Z,30)`, `$P_PFRAME=F1`, `$P_UIFR[1]=CTRANS(X,200)`, `$P_UIFR[1,X,TR]=200`.
 //!
 //! A chain a:b takes a point that is given in b first through b, then through a. `$P_PFRAME` is what TRANS, ROT, SCALE and MIRROR set, and acts
-//! at once; `$P_UIFR[n]` is the work offset n (1 to 4: G54 to G57, 5 to 99: G505 to G599), and acts when its code is programmed next.
+//! at once; `$P_UIFR[n]` is the work offset n (1 to 4: G54 to G57, 5 to 99: G505 to G599), and acts when its code is programmed next. Between new
+//! values of the offset in effect and its code it is not known which ones act: a motion there makes all further positions unknown.
 //!
 //! Sources: SINUMERIK ONE Programming Manual, 12/2019, p. 631; SINUMERIK 840D Programming Guide Advanced, 04.2000, 6-194, 6-216. In which
 //! order several angles of CROT turn is machine data (10600, [control] frame_angles), and fine shifts and rotations of work offsets are not followed.
-use crate::FaultKind;
+use crate::codes::{BlockCodes, Found};
 use crate::core::Report;
-use crate::frames::{FrameValue, Linear, OffsetValues, angles_of, by_traces};
+use crate::frames::{FrameValue, Linear, OffsetValues, ShiftParts, angles_of, by_traces};
 use crate::iso::Iso;
 use crate::own::arguments;
 use crate::reader::Reader;
 use crate::words::Words;
+use crate::{FaultKind, Motion, MotionKind};
 use trunnion_geometry::Vec3;
 use trunnion_syntax::{TextRange, Word};
 
 /// Frames in one chain.
 const LONGEST: usize = 64;
+
+/// When the work offset in effect got values that do not act yet for certain.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Rewritten {
+    /// In this block: whether its own G54 comes first is not known.
+    Here,
+    Before,
+}
 
 /// Where a written frame goes.
 enum Target {
@@ -126,10 +136,13 @@ impl Iso<'_> {
         let linear = crate::core::LINEAR & (1 << axis) != 0;
         if kind.eq_ignore_ascii_case("RT") && axis < 3 && key == "$p_pframe" {
             let mut frame = self.programmable();
+            let parts = self.memory.frames.parts;
             let mut angles = angles_of(&frame.turn);
             angles[axis] = value;
             frame.turn = self.turn_of(angles.map(Some))?;
-            return self.set_programmable(frame);
+            self.set_programmable(frame)?;
+            self.memory.frames.parts = parts;
+            return Some(());
         }
         if !kind.eq_ignore_ascii_case("TR") || !linear {
             return None;
@@ -138,7 +151,9 @@ impl Iso<'_> {
         if key == "$p_pframe" {
             let mut frame = self.programmable();
             frame.shift[axis] = value;
-            return self.set_programmable(frame);
+            return Some(frame)
+                .filter(|frame| !frame.fine)
+                .and_then(|frame| self.set_programmable(frame));
         }
         let number = whole(self.memory.own.value(numbers.first()?)?)?;
         let name = offset_name(number);
@@ -146,6 +161,40 @@ impl Iso<'_> {
         values.values[axis] = value;
         values.known |= 1 << axis;
         self.write_offset_value(&name, values)
+    }
+
+    /// The motions of a called cycle, and what is known of all those of the block.
+    #[inline]
+    pub(crate) fn called_motions(
+        &mut self,
+        codes: &[Found<'_>],
+        words: &Words,
+        block: &BlockCodes,
+        motion: &mut Option<Motion>,
+        report: &mut Report<'_>,
+    ) {
+        self.called_cycle(codes, words, block, motion, report);
+        if self.memory.offset_open.is_some() {
+            self.moves_in_open_offset(motion, report);
+        }
+    }
+
+    /// At the end of a block: a motion since the work offset in effect has got new values, before its code, goes nobody knows where.
+    fn moves_in_open_offset(&mut self, motion: &mut Option<Motion>, report: &mut Report<'_>) {
+        self.memory.offset_open = self.memory.offset_open.map(|_| Rewritten::Before);
+        let counts = |motion: &Motion| !motion.machine_coordinates && !matches!(motion.kind, MotionKind::Dwell(_));
+        if !self.memory.out.iter().chain(motion.as_ref()).any(counts) {
+            return;
+        }
+        self.memory.offset_open = None;
+        let what = "a motion after new values of the work offset in effect: which ones act (program its code, such as G54, before it)";
+        report.fault(report.whole(), FaultKind::NotModelled { what: what.to_owned() });
+        self.system_changed();
+        let mut out = std::mem::take(&mut self.memory.out);
+        for motion in out.iter_mut().chain(motion.as_mut()).filter(|motion| counts(motion)) {
+            self.core.hide(motion);
+        }
+        self.memory.out = out;
     }
 
     /// A work offset that is in effect changes when it is programmed again; until then nothing says which one acts.
@@ -156,10 +205,13 @@ impl Iso<'_> {
             .zero
             .offset()
             .is_some_and(|known| known.eq_ignore_ascii_case(name));
-        if in_effect || self.memory.frames.tilt.is_some() {
+        if self.memory.frames.tilt.is_some() {
             return None;
         }
-        self.store_offset(name, values);
+        if in_effect {
+            self.memory.offset_open = Some(Rewritten::Here);
+        }
+        self.memory.frames.remember_offset(name, values);
         Some(())
     }
 
@@ -171,6 +223,7 @@ impl Iso<'_> {
         FrameValue {
             turn: frames.shape.linear.unwrap_or_default().matrix(),
             shift: Vec3::new(frames.local[0], frames.local[1], frames.local[2]),
+            fine: frames.parts.has_fine(),
         }
     }
 
@@ -185,6 +238,7 @@ impl Iso<'_> {
             return self.replace_solid(&frame).then_some(());
         }
         self.memory.frames.local[..3].copy_from_slice(frame.shift.as_slice());
+        self.memory.frames.parts = ShiftParts::of_frame(frame.fine);
         self.replace_linear(Some(Linear::from_matrix(frame.turn)).filter(|_| frame.turns()));
         Some(())
     }
@@ -248,6 +302,7 @@ impl Iso<'_> {
         }
         match name {
             "CTRANS" | "CFINE" => {
+                frame.fine = name == "CFINE";
                 for (axis, value) in named {
                     frame.shift[axis] += value * self.core.state.coordinates.unit_mm();
                 }

@@ -84,7 +84,8 @@ impl<'d> Iso<'d> {
         }
     }
 
-    /// G110: relative to the present point, G111: in the workpiece, G112: relative to the last pole.
+    /// G110: relative to the present point, G111: in the workpiece, G112: relative to the last pole; G90 and G91 change nothing in that
+    /// (SINUMERIK 840Di sl, Programming Manual, Fundamentals, 11/2006, p. 118). What a coordinate that is left out means to G110 and G111 is not said there.
     pub(crate) fn pole(&mut self, found: &Found<'d>, words: &Words, block: &mut BlockCodes, report: &mut Report<'_>) {
         block.takes_coordinates = true;
         let [a, b, _] = plane_axes(self.core.state.coordinates.plane());
@@ -100,11 +101,10 @@ impl<'d> Iso<'d> {
                 .map(|pole| pole.centre.into()),
         };
         let path = self.memory.own.path;
-        let in_words = words
-            .axes
-            .get(a)
-            .zip(words.axes.get(b))
-            .map(|(x, y)| (x * unit, y * unit));
+        // relative to the last pole, a coordinate that is left out stays that of it
+        let stays = found.code.id == "G112" && (words.axes.get(a).is_some() || words.axes.get(b).is_some());
+        let by_word = |axis: usize| words.axes.get(axis).or(stays.then_some(0.0));
+        let in_words = by_word(a).zip(by_word(b)).map(|(x, y)| (x * unit, y * unit));
         let in_angles = path.polar.get(0).zip(path.polar.get(1)).map(|(angle, radius)| {
             let (sin, cos) = sin_cos_degrees(angle);
             (radius * unit * cos, radius * unit * sin)
@@ -113,7 +113,6 @@ impl<'d> Iso<'d> {
         let directed = words.axes.absolute | words.axes.incremental | path.polar.absolute | path.polar.incremental;
         let plain = directed == 0
             && !path.unread
-            && !self.core.state.coordinates.incremental()
             && (!path.polar.any() || !words.axes.any())
             && words.axes.given | words.axes.unread == words.axes.given & ((1 << a) | (1 << b));
         let centre = base

@@ -4,10 +4,10 @@
 //! Sources: SINUMERIK, Basic Machine, Function Manual, 08/2005, p. 2-108, and Basic Functions, 09/2011, p. 793 (subprograms with SAVE): the
 //! programmable frame and the G function of the settable frame are those of the call; a settable frame whose values the subprogram has
 //! changed under the same G function is a matter of machine data 10617; system frames stay.
-use super::{Spline, SplineEnds};
+use super::{Groups, Spline, SplineEnds};
 use crate::diameter::XWords;
 use crate::effects::Settings;
-use crate::frames::{FrameValue, OffsetValues};
+use crate::frames::{FrameValue, OffsetValues, ShiftParts};
 use crate::iso::Iso;
 use crate::travel::Travel;
 use crate::{Effect, FaultKind, FeedMode};
@@ -25,6 +25,7 @@ pub(crate) struct Saved {
     compensation: u8,
     zero: (Option<Arc<str>>, [f64; 9], u16),
     frame: FrameValue,
+    parts: ShiftParts,
     /// The shift of the axes beside X Y Z.
     beside: [f64; 6],
     settings: Settings,
@@ -45,6 +46,7 @@ struct Modes {
     feed_mode_unread: bool,
     x_words: XWords,
     spline_ends: SplineEnds,
+    groups: Groups,
 }
 
 impl Iso<'_> {
@@ -60,6 +62,7 @@ impl Iso<'_> {
             compensation: core.state.compensation,
             zero: (zero.offset_name(), frames.selected, zero.undeclared()),
             frame: self.programmable(),
+            parts: frames.parts,
             beside,
             settings: core.effects.settings().clone(),
         })
@@ -80,6 +83,7 @@ impl Iso<'_> {
             feed_mode_unread: self.core.feed_mode_unread,
             x_words: self.memory.x_words,
             spline_ends: own.splines.ends,
+            groups: own.groups,
         }
     }
 
@@ -127,11 +131,12 @@ impl Iso<'_> {
             };
             self.set_zero(name.clone(), values);
         }
-        let mut followed = true;
+        let (mut followed, parts) = (true, saved.parts);
         if self.programmable() != saved.frame {
             let frame = saved.frame;
             self.frames_move(|iso| followed = iso.set_programmable(frame).is_some());
         }
+        self.memory.frames.parts = parts;
         (!followed).then_some("the programmable frame that comes back at the return")
     }
 
@@ -143,6 +148,7 @@ impl Iso<'_> {
         own.changes += 1;
         own.splines.kind = modes.spline;
         own.splines.ends = modes.spline_ends;
+        own.groups = modes.groups;
         own.contour.euler = modes.euler;
         own.contour.heading_is_lost();
         state.motion = modes.motion;

@@ -10,7 +10,9 @@ impl Iso<'_> {
     /// What the control knows, for a block that may ask for it.
     pub(crate) fn note_system(&mut self, block: &Block<'_>) {
         let range = block.range();
-        if block.program().bytes(range).contains(&b'$') {
+        let text = block.program().bytes(range);
+        let frames = !self.memory.own.scope.frames.is_empty() && text.contains(&b'[');
+        if frames || text.contains(&b'$') {
             let known = self.system_values();
             let own = &mut self.memory.own;
             if known != own.system {
@@ -63,6 +65,60 @@ impl Iso<'_> {
         shifts
     }
 
+    /// The shifts along an axis of the settable frame in effect, and of all frames, mm, where they are known.
+    fn frames_in_effect(&self, axis: usize) -> [Option<f64>; 2] {
+        let (zero, frames) = (&self.core.state.zero, &self.memory.frames);
+        let known = zero.undeclared() & (1 << axis) == 0 && zero.offset().is_some();
+        let settable = known.then_some(frames.selected[axis]);
+        let alone =
+            frames.tilt.is_none() && frames.swivel.is_none() && frames.turret == [0.0; 9] && !zero.is_set_here();
+        [settable, settable.filter(|_| alone).map(|_| zero.values()[axis])]
+    }
+
+    /// The parts of variables of the type FRAME that are known, in program units.
+    fn parts_of_variables(&self, unit: f64) -> Vec<(String, f64)> {
+        let mut parts = Vec::new();
+        for (name, frame) in &self.memory.own.scope.frames {
+            let Some(frame) = frame.filter(|frame| !frame.fine) else {
+                continue;
+            };
+            let angles = self.frame_angles(&frame);
+            for (axis, letter) in ["x", "y", "z"].into_iter().enumerate() {
+                parts.push((format!("{name}[{letter},tr]"), frame.shift[axis] / unit));
+                parts.extend(angles.map(|angles| (format!("{name}[{letter},rt]"), angles[axis])));
+            }
+        }
+        parts
+    }
+
+    /// The spindle, the codes in effect, and how the program runs.
+    fn codes_in_effect(&self, put: &mut impl FnMut(Arguments<'_>, Option<f64>)) {
+        for (group, number) in self.memory.own.groups.known() {
+            put(format_args!("$p_gg[{group}]"), Some(number));
+        }
+        let spindle = &self.core.state.spindle;
+        let speed = spindle
+            .rpm()
+            .filter(|_| !spindle.surface_speed() && spindle.speed_programmed());
+        put(format_args!("$p_s"), speed);
+        if let Some(main) = self.memory.own.main_spindle {
+            put(format_args!("$p_s[{main}]"), speed);
+        }
+        put(format_args!("$p_msnum"), self.memory.own.main_spindle.map(f64::from));
+        put(
+            format_args!("$p_gg[6]"),
+            Some(plane_code(self.core.state.coordinates.plane())),
+        );
+        put(
+            format_args!("$p_mc"),
+            Some(f64::from(u8::from(self.memory.cycle.call.is_some()))),
+        );
+        for name in ["$p_sim", "$p_istest", "$p_search", "$p_dryrun"] {
+            // in a run that cuts the part
+            put(format_args!("{name}"), Some(0.0));
+        }
+    }
+
     /// System variables with a value that follows from the program; all others are unknown by name.
     fn system_values(&mut self) -> BTreeMap<Box<str>, f64> {
         let mut known: BTreeMap<Box<str>, f64> = BTreeMap::new();
@@ -75,7 +131,10 @@ impl Iso<'_> {
         let here = self.memory.frames.programmed(&position);
         let unit = self.core.state.coordinates.unit_mm();
         let own_plane = self.memory.frames.tilt.is_none_or(|tilt| tilt.programmed);
-        let plain = !self.core.unknown.any() && !self.core.state.zero.is_lost() && own_plane;
+        let plain = !self.core.unknown.any()
+            && !self.core.state.zero.is_lost()
+            && own_plane
+            && self.memory.offset_open.is_none();
         let frame = self.programmable();
         let angles = self.frame_angles(&frame).filter(|_| plain);
         let cutting_on_path = self.core.state.compensation == 0 && !self.memory.corners.is_busy();
@@ -98,12 +157,23 @@ impl Iso<'_> {
                 .unwrap_or(self.memory.frames.local[axis]);
             put(
                 format_args!("$p_pframe[{letter},tr]"),
-                Some(shift / scale).filter(|_| plain && self.memory.frames.shape.linear.is_none()),
+                Some(shift / scale).filter(|_| plain && !frame.fine && self.memory.frames.shape.linear.is_none()),
             );
+            if linear && plain {
+                let [settable, whole] = self
+                    .frames_in_effect(axis)
+                    .map(|value| value.map(|value| value / scale));
+                put(format_args!("$p_iframe[{letter},tr]"), settable);
+                put(format_args!("$p_actframe[{letter},tr]"), whole);
+            }
             let angle = angles.and_then(|angles| angles.get(axis).copied());
             put(format_args!("$p_pframe[{letter},rt]"), angle);
         }
-        for (name, value) in self.stored_shifts(unit) {
+        for (name, value) in self
+            .stored_shifts(unit)
+            .into_iter()
+            .chain(self.parts_of_variables(unit))
+        {
             put(format_args!("{name}"), Some(value));
         }
         let feed = self
@@ -114,29 +184,10 @@ impl Iso<'_> {
             .map(|feed| feed / self.core.state.feed.unit_mm());
         put(format_args!("$pi"), Some(core::f64::consts::PI));
         put(format_args!("$p_f"), feed);
-        let spindle = &self.core.state.spindle;
-        put(
-            format_args!("$p_s"),
-            spindle
-                .rpm()
-                .filter(|_| !spindle.surface_speed() && spindle.speed_programmed()),
-        );
-        put(format_args!("$p_msnum"), self.memory.own.main_spindle.map(f64::from));
         put(format_args!("$p_toolno"), self.core.state.tool.number().map(f64::from));
         put(format_args!("$p_toolr"), self.tool_radius().map(|radius| radius / unit));
         put(format_args!("$p_tool"), self.memory.edge.map(f64::from));
-        put(
-            format_args!("$p_gg[6]"),
-            Some(plane_code(self.core.state.coordinates.plane())),
-        );
-        put(
-            format_args!("$p_mc"),
-            Some(f64::from(u8::from(self.memory.cycle.call.is_some()))),
-        );
-        for name in ["$p_sim", "$p_istest", "$p_search", "$p_dryrun"] {
-            // in a run that cuts the part
-            put(format_args!("{name}"), Some(0.0));
-        }
+        self.codes_in_effect(&mut put);
         known
     }
 }

@@ -197,7 +197,9 @@ impl<'d> Iso<'d> {
         let key = program_key(&name);
         let is_modal =
             matches!(codes.as_slice(), [found] if found.code.action == Action::CannedCycle && !found.with_arguments);
-        if is_modal && self.modal_call_of(block, &key, (range, arguments), words) {
+        // `MCALL L10`: L is the name of the program
+        let name_letter = if number.is_some() { 1 << (b'L' - b'A') } else { 0 };
+        if is_modal && self.modal_call_of(block, &key, (range, arguments, name_letter), words) {
             codes.clear();
             return;
         }
@@ -260,7 +262,7 @@ impl<'d> Iso<'d> {
         &mut self,
         block: &Block<'_>,
         key: &Key,
-        (range, arguments): (TextRange, Option<TextRange>),
+        (range, arguments, name_letter): (TextRange, Option<TextRange>, u32),
         words: &mut Words,
     ) -> bool {
         let program = block.program();
@@ -270,7 +272,7 @@ impl<'d> Iso<'d> {
         let plain = text
             .bytes()
             .all(|byte| byte.is_ascii_digit() || b".,+- ".contains(&byte));
-        let beside = words.letters & !(1 << (b'N' - b'A')) != 0 || words.axes.any() || words.forgets_all;
+        let beside = words.letters & !(1 << (b'N' - b'A') | name_letter) != 0 || words.axes.any() || words.forgets_all;
         if beside || !plain || !self.is_program(key, program) {
             return false;
         }

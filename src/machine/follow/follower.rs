@@ -62,6 +62,7 @@ impl<'m> Follower<'m> {
     /// [`Self::follow`] for any motion.
     pub(crate) fn general(&mut self, motion: &Motion) -> Leg {
         self.lines = None;
+        self.relocate(motion);
         let given = self.state.stance.is_none().then(|| self.begin(motion)).flatten();
         let mut leg = self.step(motion, given.is_some());
         if let Some(begun) = given {

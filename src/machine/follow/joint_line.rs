@@ -11,6 +11,7 @@ impl Follower<'_> {
     /// [`Self::follow`] into the storage of the leg before, which is made where there is none.
     #[inline]
     pub fn follow_into(&mut self, motion: &Motion, leg: &mut Option<Box<Leg>>) {
+        self.relocate(motion);
         match leg {
             Some(leg) if self.is_straight(motion) => {
                 if !self.lines.as_ref().is_some_and(|lines| lines.hold(motion)) {

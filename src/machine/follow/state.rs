@@ -24,6 +24,8 @@ pub(crate) struct State {
     pub(crate) turned: u64,
     /// A tool vector gave the rotary joints their positions.
     pub(crate) led: bool,
+    /// [`trunnion_interp::Motion::relocations`] of the last motion.
+    pub(crate) relocations: u32,
 }
 
 impl State {
@@ -40,5 +42,6 @@ impl State {
         tip_words: false,
         turned: 0,
         led: false,
+        relocations: 0,
     };
 }

@@ -4,3 +4,4 @@ mod known_positions;
 mod loops;
 mod no_silence;
 mod planted_own;
+mod tool_change;

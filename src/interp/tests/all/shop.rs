@@ -337,3 +337,38 @@ fn points_after_the_end_of_tool_axes() {
         .orientation;
     assert_eq!(last, trunnion_interp::Orientation::Words);
 }
+
+/// From the last M91 position; where the axis has left it, the distance may count from either place.
+#[test]
+fn distances_in_machine_coordinates() {
+    let start = "L X+0 Y+0 Z+5 R0 FMAX\n";
+    let last = |blocks: &str| lines(NAME, &program(&format!("{start}{blocks}"))).pop();
+    assert_eq!(
+        last("L X+10 FMAX M91\nL IX+2 FMAX M91\n").as_deref(),
+        Some("R X12 Y0 Z5 machine")
+    );
+    assert_eq!(
+        last("L X+10 FMAX M91\nL Y+1 FMAX\nL IX+2 FMAX M91\nL IX+2 FMAX M91\n").as_deref(),
+        Some("R X14 Y1 Z5 machine")
+    );
+    for blocks in [
+        "L IX+2 FMAX M91\n",
+        "L X+10 FMAX M91\nL X+11 FMAX\nL IX+2 FMAX M91\n",
+        "L X+10 FMAX M91\nL IX+2 FMAX M92\n",
+        "L Y+10 FMAX M91\nL IX+2 FMAX M91\n",
+    ] {
+        let end = last(blocks).expect("a motion");
+        assert!(!end.contains('X'), "{blocks}: {end}");
+    }
+}
+
+/// What is not followed has a name: the limit of the axis, functions of texts.
+#[test]
+fn reasons_of_klartext() {
+    let plane = "L X+0 Y+0 Z+5 A+0 C+0 R0 FMAX\nPLANE SPATIAL SPA+10 SPB+0 SPC+0 TURN MB MAX FMAX\n";
+    assert!(says(NAME, &program(plane), "MB MAX: where the retract"));
+    assert!(!says(NAME, &program(&plane.replace("MAX FMAX", "50 FMAX")), "MB MAX"));
+    let text = "QS1 = \"AB\"\nQS2 = QS1 || \"CD\"\nQ1 = STRLEN ( SRC_QS2 )\nL X+Q1 R0 FMAX\n";
+    assert!(says(NAME, &program(text), "QS2: functions of texts are not followed"));
+    assert!(!says(NAME, &program(text), "does not set its value"));
+}

@@ -275,6 +275,10 @@ fn a_modal_subprogram_runs_after_each_motion() {
         called("G0 X0\nMCALL L140(4)\nF500\nM8\nMCALL\nX1\n"),
         ["R X0", "R X0 Z4", "R X1 Z4"]
     );
+    assert_eq!(
+        called("R1=7\nG0 X0\nMCALL L20\nX5\nMCALL\nX1\n"),
+        ["R X0", "R X5", "R X8", "R X1"]
+    );
     // a cycle takes its place, and so does another subprogram
     assert_eq!(
         called("G0 X0\nMCALL CUT(1,2)\nMCALL PLAIN\nX5\nMCALL\nX1\n"),

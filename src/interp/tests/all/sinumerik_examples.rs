@@ -96,7 +96,7 @@ fn a_target_that_is_not_known_is_not_decided() {
 #[test]
 fn words_that_move_an_axis_are_said() {
     for block in [
-        "AX[X]=7",
+        "AX[SP1]=7",
         "POS[X]=50",
         "X1 POSA[Y]=5",
         "POSP[X]=(5,1,0)",

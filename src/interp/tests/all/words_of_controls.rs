@@ -185,6 +185,16 @@ fn polar_interpolation_by_its_other_numbers() {
         "G112",
     )];
     check("fanuc-30i", head, rows);
+    // on a mill of Haas they are no work offsets for certain, and nothing ends them
+    let rows: &[Row] = &[
+        (
+            "G112\nG1 X20. Y10.\nG113\nG55 X1. Y1. Z1.",
+            &["L - F100", "L - F100"],
+            "G112",
+        ),
+        ("G113\nG1 X20. Y10.", &["L - F100"], "G113"),
+    ];
+    check("haas-ngc", head, rows);
 }
 
 #[test]

@@ -15,6 +15,7 @@ mod orientation;
 mod plane_axial;
 mod programs;
 mod random;
+mod relocations;
 mod review;
 mod saddle;
 mod soundness;

@@ -154,7 +154,7 @@ fn each_plane_in_every_form_has_its_matrix() {
         for (form, blocks) in forms(angles, &turn) {
             for how in HOW {
                 let name = format!("{form} {angles:?} {how}");
-                let motions = run_posted(NAME, &name, &program(&blocks, how), &[]);
+                let motions = run_posted(NAME, &name, &program(&blocks, how), &["MB MAX: where the retract"]);
                 let cuts: Vec<_> = motions.iter().filter(|motion| motion.is_feed()).collect();
                 assert_eq!(cuts.len(), PLACES.len(), "{name}");
                 for (cut, place) in cuts.iter().zip(PLACES) {

@@ -52,11 +52,10 @@ impl Judge for Proof<'_> {
         let mut leading = before.iter().zip(after).take(head);
         leading.try_for_each(|(was, is)| self.pair(was, is))?;
         let (was, is) = (&before[head..old], &after[head..new]);
-        self.level = was
-            .iter()
-            .fold(self.level, |level, step| level_past(level, self.machine, step));
-        let level = level_on(self.level, self.machine, &before[old..]);
-        self.changed_rapids(was, is, level)
+        for step in was {
+            self.level = level_past(self.level, self.machine, step);
+        }
+        self.changed_rapids(was, is, level_on(self.level, self.machine, &before[old..]))
             .map_err(|outcome| self.fail(outcome, &was[0], &is[0]))?;
         before[old..]
             .iter()

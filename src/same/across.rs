@@ -3,7 +3,7 @@
 //! Zero points and tool lengths that are declared are in the motions. One that is not must have gone with the same one of the other program
 //! wherever it counts. The kind of a cycle is compared as far as both controls say it in a way that is known; other settings have no common words.
 use crate::item::{Item, Sort, Step};
-use crate::process::{Process, Unlike, shown};
+use crate::process::{Process, Unlike, shown, stops};
 use crate::verdict::{Difference, Verdict};
 use std::sync::Arc;
 use trunnion_dialect::{Dialect, Plane};
@@ -81,15 +81,15 @@ impl Counterparts {
         let machine = a.machine_coordinates || b.machine_coordinates;
         if !machine
             && (a.undeclared.zero | b.undeclared.zero) != 0
-            && let Some(earlier) = join(&mut self.zeros, [&was.held.work_offset, &is.held.work_offset])
+            && let Some([one, other]) = join(&mut self.zeros, [&was.held.work_offset, &is.held.work_offset])
         {
             let name = |zero: &Option<Arc<str>>| zero.as_deref().unwrap_or("no work offset").to_owned();
             return unknown(format!(
                 "the zero points are {} and {}, but before this {} went with {}: declare them",
                 name(&was.held.work_offset),
                 name(&is.held.work_offset),
-                name(&earlier[0]),
-                name(&earlier[1])
+                name(&one),
+                name(&other)
             ));
         }
         if !machine && length_counts(a, b) && (a.undeclared.length || b.undeclared.length) {
@@ -99,11 +99,8 @@ impl Counterparts {
             if one_has_none {
                 return unknown(what);
             }
-            if let Some(earlier) = join(&mut self.lengths, lengths) {
-                return unknown(format!(
-                    "{what}, but before this {} went with {}: declare them",
-                    earlier[0], earlier[1]
-                ));
+            if let Some([one, other]) = join(&mut self.lengths, lengths) {
+                return unknown(format!("{what}, but before this {one} went with {other}: declare them"));
             }
             if was.held.plane != Plane::Xy || is.held.plane != Plane::Xy {
                 return unknown(format!(
@@ -279,9 +276,27 @@ pub fn are_two_controls(dialects: [&Dialect; 2]) -> bool {
 }
 
 /// Whether words that are not modelled do the same on every control: ISO 6983-1, M00, M01, M06.
-pub(crate) fn means_the_same(words: &[Argument]) -> bool {
+fn means_the_same(words: &[Argument]) -> bool {
     const WORDS: [&str; 4] = ["tool change", "M0", "M1", "M6"];
     matches!(words, [only] if WORDS.contains(&only.name.as_ref()))
+}
+
+/// Whether two things that both do in the same words are the same on two controls; what is in effect is compared where the tool moves.
+pub(crate) fn same_words(sort: Sort, words: &[Argument], [was, is]: [&Process; 2]) -> Result<(), String> {
+    if sort != Sort::End && !means_the_same(words) {
+        return Err(format!(
+            "both do `{}`, which is not modelled, and two controls may do different things with it",
+            shown(words)
+        ));
+    }
+    if stops(words) && was.message() != is.message() {
+        return Err(format!(
+            "the operator message at the stop differs: {} and {}",
+            shown(was.message()),
+            shown(is.message())
+        ));
+    }
+    Ok(())
 }
 
 /// The verdict on two items of two controls: where one does something in words of its own, it is not known that the other does not do it too.

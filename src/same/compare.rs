@@ -7,8 +7,7 @@ use crate::across::{Counterparts, are_two_controls, is_in_motions, unless_own_wo
 use crate::begin::{begin_alike, may_be_part, way_is_open};
 use crate::curve::{self, Curve};
 use crate::cut::{blocks_count, cut, is_idle, may_be_cut};
-use crate::elsewhere::same_elsewhere;
-use crate::ending::{at_end, nothing_outlives, stopped};
+use crate::ending::ended;
 use crate::exact;
 use crate::happens::happens;
 use crate::in_effect::{in_effect, unless_undeclared};
@@ -138,24 +137,7 @@ fn walk(
             b = next(after, claim);
         }
     }
-    if a.is_some() || b.is_some() {
-        let verdict = only_one(a.as_ref(), b.as_ref());
-        let own = a.as_ref().or(b.as_ref()).filter(|_| claim.across);
-        return Err(own.map_or(verdict.clone(), |own| unless_own_words(verdict, own, own)));
-    }
-    if twins.stopped(before, after)? {
-        return Ok(());
-    }
-    stopped(before, after)?;
-    same_elsewhere(before, after)?;
-    if claim.path_only {
-        return Ok(());
-    }
-    if claim.across {
-        return nothing_outlives(before, after);
-    }
-    at_end(before, after)?;
-    Ok(())
+    ended(before, after, [a.as_ref(), b.as_ref()], claim, twins)
 }
 
 /// The verdict on two items, unless one motion may be a part of the other, because it is unknown where they come from.

@@ -1,6 +1,12 @@
 //! The state that two programs leave when they end.
+use crate::Claim;
+use crate::across::unless_own_words;
+use crate::elsewhere::same_elsewhere;
+use crate::item::Item;
 use crate::process::{unlike, unlike_in_motions};
+use crate::sentences::only_one;
 use crate::steps::Steps;
+use crate::twins::Twins;
 use crate::verdict::{Difference, Verdict};
 use trunnion_interp::{FaultKind, same_number};
 
@@ -26,6 +32,35 @@ impl Steps<'_> {
     }
 }
 
+/// The ends of both runs; `rest`: what only one of them does after the other has ended.
+pub(crate) fn ended(
+    before: &mut Steps<'_>,
+    after: &mut Steps<'_>,
+    rest: [Option<&Item>; 2],
+    claim: &Claim,
+    twins: &Twins,
+) -> Result<(), Verdict> {
+    let [a, b] = rest;
+    if let Some(own) = a.or(b) {
+        let verdict = only_one(a, b);
+        return Err(if claim.across {
+            unless_own_words(verdict, own, own)
+        } else {
+            verdict
+        });
+    }
+    if twins.stopped(before, after)? {
+        return Ok(());
+    }
+    stopped(before, after)?;
+    same_elsewhere(before, after)?;
+    match (claim.path_only, claim.across) {
+        (true, _) => Ok(()),
+        (false, true) => nothing_outlives(before, after),
+        (false, false) => at_end(before, after),
+    }
+}
+
 /// Both were followed to their ends.
 pub(crate) fn stopped(before: &Steps<'_>, after: &Steps<'_>) -> Result<(), Verdict> {
     for (which, steps) in [("original", before), ("changed", after)] {
@@ -42,7 +77,7 @@ pub(crate) fn stopped(before: &Steps<'_>, after: &Steps<'_>) -> Result<(), Verdi
 }
 
 /// Variables that outlive a program have other names on another control: whether what they hold is the same is not compared.
-pub(crate) fn nothing_outlives(before: &Steps<'_>, after: &Steps<'_>) -> Result<(), Verdict> {
+fn nothing_outlives(before: &Steps<'_>, after: &Steps<'_>) -> Result<(), Verdict> {
     let all = before.stored().into_keys().chain(after.stored().into_keys());
     match all.into_iter().next() {
         None => Ok(()),

@@ -1,6 +1,6 @@
 //! Two things that programs do apart from motions.
 use crate::Claim;
-use crate::across::means_the_same;
+use crate::across::same_words;
 use crate::item::{Item, Sort};
 use crate::process::{shown, stops, unlike, unlike_in_motions};
 use crate::sentences::at;
@@ -35,13 +35,10 @@ pub(crate) fn happens(was: &Item, is: &Item, claim: &Claim) -> Result<(), Verdic
     if claim.path_only {
         return Ok(());
     }
-    if claim.across && *sort != Sort::End && !means_the_same(words) {
-        return Err(Verdict::Unknown(place(format!(
-            "both do `{}`, which is not modelled, and two controls may do different things with it",
-            shown(words)
-        ))));
+    if claim.across {
+        return same_words(*sort, words, [process, other_process]).map_err(|what| Verdict::Unknown(place(what)));
     }
-    if let (Some(was), Some(is), false) = (around, other_around, claim.across) {
+    if let (Some(was), Some(is)) = (around, other_around) {
         let mut pairs = was.situations.iter().zip(&is.situations);
         let found = pairs.find_map(|(was, is)| was.difference(is, !claim.frees_feed));
         let found = found.map(|(name, from, to)| (name.to_owned(), from, to));
@@ -53,8 +50,7 @@ pub(crate) fn happens(was: &Item, is: &Item, claim: &Claim) -> Result<(), Verdic
             ))));
         }
     }
-    // what is in effect is compared where the tool moves
-    if let Some(found) = unlike(process, other_process, false).filter(|_| !claim.across) {
+    if let Some(found) = unlike(process, other_process, false) {
         let what = format!(
             "{} differs at `{}`: {} and {}",
             found.key,
@@ -69,7 +65,6 @@ pub(crate) fn happens(was: &Item, is: &Item, claim: &Claim) -> Result<(), Verdic
         });
     }
     if let Some(found) = unlike_in_motions(process, other_process)
-        && !claim.across
         && (*sort == Sort::Unmodelled || words.iter().any(names_place))
     {
         return Err(Verdict::Unknown(place(format!(

@@ -10,17 +10,8 @@ use trunnion_interp::{Feed, MotionKind, Orientation, same_number};
 
 /// What must be in effect in both programs, whatever the kinds of the two motions.
 pub(crate) fn in_effect(was: &Step, is: &Step, claim: &Claim) -> Result<(), Verdict> {
-    if claim.across
-        && [was, is]
-            .iter()
-            .any(|step| matches!(step.motion.kind, MotionKind::Unknown | MotionKind::Arc(None)))
-    {
-        let what = "a motion that is not modelled, and two controls may do different things with the same words";
-        return Err(Verdict::Unknown(Difference {
-            before: Some(was.motion.block),
-            after: Some(is.motion.block),
-            what: what.to_owned(),
-        }));
+    if claim.across {
+        all_modelled(was, is)?;
     }
     if claim.path_only {
         return same_tip(was, is, claim);
@@ -94,6 +85,17 @@ pub(crate) fn in_effect(was: &Step, is: &Step, claim: &Claim) -> Result<(), Verd
         );
     }
     Ok(())
+}
+
+/// Two controls may do different things with the same words.
+fn all_modelled(was: &Step, is: &Step) -> Result<(), Verdict> {
+    let lost = |step: &&Step| matches!(step.motion.kind, MotionKind::Unknown | MotionKind::Arc(None));
+    let found = [was, is].iter().any(lost).then(|| Difference {
+        before: Some(was.motion.block),
+        after: Some(is.motion.block),
+        what: "a motion that is not modelled, and two controls may do different things with the same words".to_owned(),
+    });
+    found.map_or(Ok(()), |found| Err(Verdict::Unknown(found)))
 }
 
 /// Whether where a motion ends or how fast it is depends on more than is known.

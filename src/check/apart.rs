@@ -330,11 +330,12 @@ mod tests {
             last: None,
             foresight: None,
         };
-        let (motion, state) = (
-            Motion::line(Position::default(), Position::default()),
-            ModalState::default(),
-        );
-        for _ in 0..BATCH * 3 + 1 {
+        let motion = Motion::line(Position::default(), Position::default());
+        let dialect = trunnion_dialect::builtin("iso-6983").expect("built in");
+        let state = Interpreter::new(dialect, &trunnion_interp::Setup::default())
+            .state()
+            .clone();
+        for _ in 0..=(BATCH * 3) {
             recorder.motion(&motion, &state);
         }
         recorder.hand_over(true);

@@ -46,7 +46,7 @@ pub(crate) struct Memory<'d> {
     /// The zero point that is in effect again after this block: its name, its values, the axes for which it is not declared.
     pub(crate) zero_after: Option<ZeroBefore>,
     /// A Sinumerik program has written values of the work offset in effect, and not selected it since.
-    pub(crate) offset_open: Option<crate::sinumerik::Rewritten>,
+    pub(crate) offset_open: Option<crate::offsets::Rewritten>,
     pub(crate) before_cycle: Option<Action>,
     /// Coordinates that the program shifts and turns.
     pub(crate) frames: crate::frames::Frames,

@@ -10,6 +10,14 @@ use std::sync::Arc;
 use trunnion_dialect::Action;
 use trunnion_syntax::TextRange;
 
+/// When the work offset in effect got values that do not act yet for certain.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Rewritten {
+    /// In this block: whether its own code comes first is not known.
+    Here,
+    Before,
+}
+
 impl<'d> Iso<'d> {
     /// Selects a work offset by the code's own name, with P where the code reads one (G54.1 P3).
     pub(crate) fn work_offset(&mut self, found: &Found<'_>, words: &Words, report: &mut Report<'_>) {
@@ -105,7 +113,7 @@ impl<'d> Iso<'d> {
 
     /// Selects a zero point; shifts by the program (G52, G92) are added to it.
     pub(crate) fn set_zero(&mut self, name: Option<Arc<str>>, zero: OffsetValues) {
-        if self.memory.offset_open == Some(crate::sinumerik::Rewritten::Before) {
+        if self.memory.offset_open == Some(Rewritten::Before) {
             self.memory.offset_open = None;
         }
         self.frames_move(|iso| {

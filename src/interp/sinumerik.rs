@@ -27,7 +27,6 @@ mod words;
 pub(crate) use crate::frames::FrameValue;
 pub(crate) use call::{Level, With, declare_parameters, too_deep};
 pub(crate) use feed_group::FeedGroup;
-pub(crate) use frame_value::Rewritten;
 pub(crate) use groups::Groups;
 pub(crate) use index::index;
 pub(crate) use names::{files, without_ending};

@@ -269,7 +269,6 @@ impl Iso<'_> {
         }
         if before != self.core.state.length.of() {
             // the axes stand still, or travel the change of length, which is unknown
-            self.core.relocate(None);
             self.core.forget_linear();
         }
     }

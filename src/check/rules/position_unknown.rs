@@ -45,7 +45,7 @@ fn check(lost: &facts::LostEnd<'_>, out: &mut Reporter<'_>) {
     // programs begin with rapids before every axis is positioned
     let nowhere = || {
         let retracts = motion.tilt.swivel == Swivel::AxesLost;
-        lost.leg.start.is_some() || motion.says_way & !motion.end.known != 0 || retracts
+        lost.leg.start.is_some() || lost.leg.taken_away || motion.says_way & !motion.end.known != 0 || retracts
     };
     if !(motion.is_feed() || motion.kind == MotionKind::Rapid && nowhere()) {
         return;

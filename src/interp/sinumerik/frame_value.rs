@@ -10,6 +10,7 @@ use crate::codes::{BlockCodes, Found};
 use crate::core::Report;
 use crate::frames::{FrameValue, Linear, OffsetValues, ShiftParts, angles_of, by_traces};
 use crate::iso::Iso;
+use crate::offsets::Rewritten;
 use crate::own::arguments;
 use crate::reader::Reader;
 use crate::words::Words;
@@ -19,14 +20,6 @@ use trunnion_syntax::{TextRange, Word};
 
 /// Frames in one chain.
 const LONGEST: usize = 64;
-
-/// When the work offset in effect got values that do not act yet for certain.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Rewritten {
-    /// In this block: whether its own G54 comes first is not known.
-    Here,
-    Before,
-}
 
 /// Where a written frame goes.
 enum Target {

@@ -102,6 +102,7 @@ impl<'m> Follower<'m> {
             motion: *motion,
             start: self.state.stance,
             start_given,
+            taken_away: core::mem::take(&mut self.state.taken_away),
             end: Err(NoStance::NotModelled),
             open: None,
             known_joints: self.state.known_joints,

@@ -92,6 +92,7 @@ impl Follower<'_> {
         let all = self.words.all();
         leg.start = self.state.stance;
         leg.start_given = false;
+        leg.taken_away = false;
         leg.open = None;
         leg.rotary_excess = 0.0;
         if let (Some(start), Err(_)) = (&leg.start, &leg.end) {

@@ -30,7 +30,9 @@ impl Follower<'_> {
         }
         self.state.known_joints.1 = before.1 & !linear | known & linear;
         let stance = self.state.stance.take();
-        if let Some(stance) = stance.filter(|_| known & linear == linear) {
+        let Some(stance) = stance else { return };
+        self.state.taken_away = known & linear != linear;
+        if !self.state.taken_away {
             let joints = self.state.known_joints.0;
             self.state.stance = Some(self.stand(motion, &joints, Some(&stance), None));
         }

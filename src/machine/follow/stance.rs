@@ -252,6 +252,8 @@ pub struct Leg {
     pub start: Option<Stance>,
     /// The start was stated by the program (APT FROM), not reached by a motion: no leg before this one ends there.
     pub start_given: bool,
+    /// The machine was at a known place, and something that is no motion has taken it elsewhere: a tool change.
+    pub taken_away: bool,
     /// After.
     pub end: Result<Stance, NoStance>,
     /// The posture at the end is one of several that the control may take.
@@ -277,6 +279,7 @@ impl Leg {
             motion,
             start,
             start_given,
+            taken_away,
             end,
             open,
             known_joints,
@@ -288,6 +291,7 @@ impl Leg {
         self.motion = *motion;
         self.start = *start;
         self.start_given = *start_given;
+        self.taken_away = *taken_away;
         match (&mut self.end, end) {
             (Ok(own), Ok(end)) => *own = *end,
             (own, end) => own.clone_from(end),

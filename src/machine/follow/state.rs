@@ -26,6 +26,8 @@ pub(crate) struct State {
     pub(crate) led: bool,
     /// [`trunnion_interp::Motion::relocations`] of the last motion.
     pub(crate) relocations: u32,
+    /// See [`crate::Leg::taken_away`].
+    pub(crate) taken_away: bool,
 }
 
 impl State {
@@ -43,5 +45,6 @@ impl State {
         turned: 0,
         led: false,
         relocations: 0,
+        taken_away: false,
     };
 }

@@ -179,7 +179,7 @@ impl<'d> Core<'d> {
         self.state.position.known &= !LINEAR;
         self.standing.hold(&mut self.state.position);
     }
-    /// The machine moves its linear axes without a motion: to that place, which the caller sets, or nobody knows where.
+    /// The machine moves its linear axes without a motion: to that place, which the caller sets, or to an unknown one.
     pub(crate) fn relocate(&mut self, place: Option<&Position>) {
         if place.is_none_or(|place| place.known != 0) {
             self.relocations = self.relocations.wrapping_add(1);

@@ -110,7 +110,7 @@ pub enum ObstacleKind {
     /// A body that the tool must not touch.
     #[default]
     Body,
-    /// The part, or what it is made from: the tool cuts it. Only a tool that turns in the air, or goes a new way at rapid, must keep clear
+    /// The part, or what it is made from: the tool cuts it. Only a tool that turns in the air, or takes a new path at rapid, must keep clear
     /// of it ([`nearness_with_part`]).
     Part,
 }

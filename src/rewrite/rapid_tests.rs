@@ -1,4 +1,4 @@
-//! New ways of rapids stay at the level of the old ones, and clear of the part.
+//! New paths of rapids stay at the level of the old ones, and clear of the part.
 use crate::{Attempt, Options, attempt, rewrite};
 use trunnion_check::{Assume, Settings};
 use trunnion_geometry::plane::{Point, Polygon};

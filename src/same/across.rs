@@ -1,7 +1,7 @@
 //! Programs for two controls: what is in effect has another name in each.
 //!
 //! Zero points and tool lengths that are declared are in the motions. One that is not must have gone with the same one of the other program
-//! wherever it counts. The kind of a cycle is compared as far as both controls say it in a way that is known; other settings have no common words.
+//! wherever it counts. The kind of a cycle is compared as far as the words of both controls are known; other settings have no common words.
 use crate::item::{Item, Sort, Step};
 use crate::process::{Process, Unlike, shown, stops};
 use crate::verdict::{Difference, Verdict};
@@ -222,7 +222,7 @@ fn unlike_cycles(was: &Step, is: &Step) -> Option<Unlike> {
     };
     match (coupling(&was.process), coupling(&is.process)) {
         (Coupling::Nothing, Coupling::Nothing) => None,
-        // the way to the hole has no pitch
+        // the rapid to the hole has no pitch
         (Coupling::Tap, Coupling::Tap) if !was.motion.is_feed() && !is.motion.is_feed() => None,
         (Coupling::Tap, Coupling::Tap) => {
             let pitches = [pitch(was), pitch(is)];

@@ -302,7 +302,7 @@ pub struct Motion {
     /// How many effects ([`crate::Effect`]) the run had before the motion; 0 if effects are not requested.
     pub effects: u32,
     /// How often the machine had moved before it without a motion of the program, as a tool change moves it. Where this number is not that of the motion
-    /// before, the linear axes are where [`Self::start`] says, and nobody knows where if it does not say so.
+    /// before, the linear axes are where [`Self::start`] says; their position is unknown if it does not say so.
     pub relocations: u32,
     /// The motion stands for a piece of a curve, which leaves it by at most so much, and it leaves the piece by no more, mm. 0: it is the path itself.
     pub slack_mm: f64,

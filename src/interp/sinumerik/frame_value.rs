@@ -172,7 +172,7 @@ impl Iso<'_> {
         }
     }
 
-    /// At the end of a block: a motion since the work offset in effect has got new values, before its code, goes nobody knows where.
+    /// At the end of a block: where a motion ends is unknown if the work offset in effect got new values and its code has not been programmed since.
     fn moves_in_open_offset(&mut self, motion: &mut Option<Motion>, report: &mut Report<'_>) {
         self.memory.offset_open = self.memory.offset_open.map(|_| Rewritten::Before);
         let counts = |motion: &Motion| !motion.machine_coordinates && !matches!(motion.kind, MotionKind::Dwell(_));

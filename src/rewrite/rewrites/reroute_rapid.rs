@@ -11,7 +11,7 @@
 //! past the higher ones is compared. The measure is the length of the path, or with `--cost time` the time of the slowest axis.
 //! The level of a run is the highest height at which its rapids go across the tool. What leads up to that level at the beginning of a run, and what comes
 //! down from it at its end, stays as it is; where it is too near to an obstacle, the tool rises and comes down along its axis instead. In between the
-//! new way goes at the level or above it. A declared part (`part = true`) is an obstacle for it, too.
+//! new path goes at the level or above it. A declared part (`part = true`) is an obstacle for it, too.
 //! Points are written in the digits of the program, rounded away from the obstacles.
 //!
 //! # Example
@@ -44,13 +44,13 @@
 //! arrive together in a rapid (`[control] rapid = "synchronous"`), everything between the ends of a motion is kept clear.
 //!
 //! # Traps
-//! - Only declared obstacles are known. A detour around something that is not declared looks needless; declare it, the part among it. A new way
+//! - Only declared obstacles are known. A detour around something that is not declared looks needless; declare it, the part among it. A new path
 //!   goes across the tool nowhere lower than the highest level at which the rapids since the last cut did. Where they all stay at one level, that level is taken
 //!   to be free but for the obstacles.
 //! - The diameter of the tool must be declared, and the work offset and tool length that the program uses.
 //! - Blocks with other words than G0, X, Y and Z stay as they are; so do motions in which a rotary axis turns, G91, G53 and tilted planes.
 //! - New blocks have no block number.
-//! - Blocks with `/` stay as they are. Where only one state of the switch for block delete needs another way, the reason is told.
+//! - Blocks with `/` stay as they are. Where only one position of the block delete switch needs another path, the message says so.
 //! - The column above the tool up to the spindle counts too: the tool may not pass below an overhanging obstacle.
 //!
 //! # Sources

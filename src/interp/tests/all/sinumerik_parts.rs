@@ -13,7 +13,7 @@ fn trouble(text: &str) -> Vec<String> {
     found
 }
 
-/// Where the last motion ends, in machine coordinates; nothing is told about the program.
+/// Where the last motion ends, in machine coordinates; the program has no faults.
 fn place(text: &str) -> String {
     assert_eq!(trouble(text), [""; 0], "{text}");
     let (motion, zero): (Motion, [f64; 9]) = zeroed(text).pop().expect("a motion");
@@ -53,7 +53,7 @@ fn shifts_of_single_axes() {
     }
 }
 
-/// New values act once the code is programmed again; a motion before that goes nobody knows where.
+/// New values act once the code is programmed again; where a motion before that ends is unknown.
 #[test]
 fn new_values_of_the_offset_in_effect() {
     let begin = format!("G54 {HEAD}");
